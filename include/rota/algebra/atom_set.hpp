@@ -1,0 +1,94 @@
+#pragma once
+
+#include <rota/core/small_vector.hpp>
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <initializer_list>
+#include <iterator>
+#include <span>
+
+namespace rota {
+
+/// What the algebra asks of an atom: a regular value with a total order. It knows no plans.
+template <class T>
+concept ordered_atom = std::regular<T> && std::totally_ordered<T> && !std::floating_point<T>;
+
+/// A finite set C of atoms, such as an allocation.
+///
+/// Class invariant: strictly ascending. Sets of up to eight atoms allocate nothing.
+template <ordered_atom Atom>
+class atom_set {
+public:
+  using value_type = Atom;
+  using const_iterator = Atom const*;
+  using iterator = const_iterator;
+
+  constexpr atom_set() = default;
+  /// The set of the listed atoms, in any order, repetitions counting once. O(n log n).
+  constexpr atom_set(std::initializer_list<Atom> atoms) : atom_set(atoms.begin(), atoms.end()) {}
+  template <std::input_iterator I, std::sentinel_for<I> S>
+  constexpr atom_set(I first, S last) : atoms_(first, last) {
+    std::sort(atoms_.begin(), atoms_.end());
+    atoms_.erase(std::unique(atoms_.begin(), atoms_.end()), atoms_.end());
+  }
+
+  [[nodiscard]] constexpr const_iterator begin() const noexcept { return atoms_.begin(); }
+  [[nodiscard]] constexpr const_iterator end() const noexcept { return atoms_.end(); }
+  [[nodiscard]] constexpr std::size_t size() const noexcept { return atoms_.size(); }
+  [[nodiscard]] constexpr bool empty() const noexcept { return atoms_.empty(); }
+  /// The atoms, ascending.
+  [[nodiscard]] constexpr std::span<Atom const> atoms() const noexcept { return {begin(), size()}; }
+
+  /// x ∈ C. O(log n).
+  [[nodiscard]] constexpr bool contains(Atom const& x) const { return std::binary_search(begin(), end(), x); }
+
+  /// C ← C ∪ {x}; whether x was new. O(n).
+  constexpr bool insert(Atom const& x) {
+    auto const* where = std::lower_bound(begin(), end(), x);
+    if (where != end() && *where == x) return false;
+    atoms_.insert(where, x);
+    return true;
+  }
+  /// C ← C ∖ {x}; whether x was there. O(n).
+  constexpr bool erase(Atom const& x) {
+    auto const* where = std::lower_bound(begin(), end(), x);
+    if (where == end() || !(*where == x)) return false;
+    atoms_.erase(where);
+    return true;
+  }
+  constexpr void clear() noexcept { atoms_.clear(); }
+
+  friend constexpr bool operator==(atom_set const&, atom_set const&) = default;
+  /// A total order of sets (lexicographic), so that sets can be atoms and keys. It is not inclusion.
+  friend constexpr auto operator<=>(atom_set const&, atom_set const&) = default;
+
+  /// C ∪ D. O(|C| + |D|), as the two below.
+  [[nodiscard]] friend constexpr atom_set unite(atom_set const& c, atom_set const& d) {
+    atom_set r;
+    std::set_union(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(r.atoms_));
+    return r;
+  }
+  /// C ∩ D.
+  [[nodiscard]] friend constexpr atom_set intersect(atom_set const& c, atom_set const& d) {
+    atom_set r;
+    std::set_intersection(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(r.atoms_));
+    return r;
+  }
+  /// C ∖ D.
+  [[nodiscard]] friend constexpr atom_set subtract(atom_set const& c, atom_set const& d) {
+    atom_set r;
+    std::set_difference(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(r.atoms_));
+    return r;
+  }
+  /// C ⊆ D.
+  [[nodiscard]] friend constexpr bool is_subset(atom_set const& c, atom_set const& d) {
+    return std::includes(d.begin(), d.end(), c.begin(), c.end());
+  }
+
+private:
+  small_vector<Atom, 8> atoms_;
+};
+
+}  // namespace rota

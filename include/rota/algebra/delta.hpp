@@ -1,0 +1,166 @@
+#pragma once
+
+#include <rota/algebra/event.hpp>
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace rota {
+
+/// Refusal: the multiplicity of this atom would leave the range of the coefficient type. Nothing saturates.
+template <ordered_atom Atom>
+struct coefficient_overflow {
+  Atom witness{};
+  friend constexpr bool operator==(coefficient_overflow const&, coefficient_overflow const&) = default;
+};
+
+/// One entry of a delta; the stored multiplicity is never zero.
+template <ordered_atom Atom, class Coefficient>
+struct multiple {
+  Atom atom{};
+  Coefficient count{};
+
+  friend constexpr auto operator<=>(multiple const&, multiple const&) = default;
+};
+
+/// A finitely supported function Atoms → ℤ: an element of the free abelian group ℤ^(Atoms).
+///
+/// This is the abelian group of allocation events; the paper's events (Def. 3) are its elements with values in {−1, 0, +1},
+/// and the paper's composition (Def. 4) is its sum, clamped. Class invariant: entries strictly ascending by atom, no count
+/// zero.
+///
+/// Laws: abelian group under `+` with identity `{}`; ℤ-module under `*`. @pre of `+`, `−`, `*`: no coefficient overflows;
+/// `checked_sum` refuses instead. Sums take O(|d| + |e|).
+template <ordered_atom Atom, class Coefficient = std::int64_t>
+  requires std::regular<Coefficient> && std::totally_ordered<Coefficient>
+class delta {
+public:
+  using atom_type = Atom;
+  using coefficient_type = Coefficient;
+  using entry = multiple<Atom, Coefficient>;
+
+  /// The identity 0.
+  constexpr delta() = default;
+
+  /// ι : event → delta, the embedding. Not a homomorphism: ι(s∘s) = ι(s) ≠ 2ι(s). O(|e|).
+  constexpr explicit delta(event<Atom> const& e) {
+    entries_.reserve(e.size());
+    for (auto const& x : e) entries_.push_back({x.atom, static_cast<Coefficient>(to_int(x.value))});
+  }
+  /// χ(C), the characteristic function of a set. O(|C|).
+  constexpr explicit delta(atom_set<Atom> const& c) {
+    entries_.reserve(c.size());
+    for (auto const& x : c) entries_.push_back({x, Coefficient{1}});
+  }
+  /// The generator n·x.
+  constexpr delta(Atom const& x, Coefficient n) {
+    if (n != Coefficient{}) entries_.push_back({x, n});
+  }
+
+  [[nodiscard]] constexpr entry const* begin() const noexcept { return entries_.begin(); }
+  [[nodiscard]] constexpr entry const* end() const noexcept { return entries_.end(); }
+  /// The number of atoms with nonzero multiplicity.
+  [[nodiscard]] constexpr std::size_t size() const noexcept { return entries_.size(); }
+  [[nodiscard]] constexpr bool empty() const noexcept { return entries_.empty(); }
+
+  /// δ(x). O(log n).
+  [[nodiscard]] constexpr Coefficient operator()(Atom const& x) const {
+    auto const* where =
+        std::lower_bound(begin(), end(), x, [](entry const& y, Atom const& key) { return y.atom < key; });
+    return where != end() && where->atom == x ? where->count : Coefficient{};
+  }
+
+  friend constexpr bool operator==(delta const&, delta const&) = default;
+  /// A total order (lexicographic by entries), for keys only.
+  friend constexpr auto operator<=>(delta const&, delta const&) = default;
+
+  [[nodiscard]] friend constexpr delta operator+(delta const& d, delta const& e) {
+    auto sum = checked_sum(d, e);
+    ROTA_ASSERT(sum.has_value());
+    return *std::move(sum);
+  }
+  [[nodiscard]] friend constexpr delta operator-(delta const& d) { return d * Coefficient{-1}; }
+  [[nodiscard]] friend constexpr delta operator-(delta const& d, delta const& e) { return d + -e; }
+  [[nodiscard]] friend constexpr delta operator*(delta const& d, Coefficient const& n) {
+    delta r;
+    if (n == Coefficient{}) return r;
+    r.entries_.reserve(d.size());
+    for (entry const& x : d) {
+      ROTA_ASSERT(product_fits(x.count, n));
+      r.entries_.push_back({x.atom, static_cast<Coefficient>(x.count * n)});
+    }
+    return r;
+  }
+  [[nodiscard]] friend constexpr delta operator*(Coefficient const& n, delta const& d) { return d * n; }
+  constexpr delta& operator+=(delta const& e) { return *this = *this + e; }
+  constexpr delta& operator-=(delta const& e) { return *this = *this - e; }
+
+  /// d + e, or the least atom whose multiplicity overflows. O(|d| + |e|).
+  [[nodiscard]] friend constexpr result<delta, coefficient_overflow<Atom>> checked_sum(delta const& d, delta const& e) {
+    delta r;
+    r.entries_.reserve(d.size() + e.size());
+    auto x = d.begin();
+    auto y = e.begin();
+    while (x != d.end() && y != e.end()) {
+      if (x->atom < y->atom) {
+        r.entries_.push_back(*x++);
+      } else if (y->atom < x->atom) {
+        r.entries_.push_back(*y++);
+      } else {
+        if (!sum_fits(x->count, y->count)) return refused{coefficient_overflow<Atom>{x->atom}};
+        auto const n = static_cast<Coefficient>(x->count + y->count);
+        if (n != Coefficient{}) r.entries_.push_back({x->atom, n});
+        ++x, ++y;
+      }
+    }
+    for (; x != d.end(); ++x) r.entries_.push_back(*x);
+    for (; y != e.end(); ++y) r.entries_.push_back(*y);
+    return r;
+  }
+
+  /// ρ : delta → event, the clamp into [−1, +1]. ρ(ι(e)) = e and compose(e, f) = ρ(ι(e) + ι(f)); no homomorphism. O(|d|).
+  [[nodiscard]] friend constexpr event<Atom> clamp(delta const& d) {
+    small_vector<signed_atom<Atom>, 8> entries;
+    entries.reserve(d.size());
+    for (entry const& x : d) entries.push_back({x.atom, x.count > Coefficient{} ? sign::plus : sign::minus});
+    return event<Atom>::from_entries(std::move(entries));
+  }
+
+  /// The universal property: the only homomorphism delta → G that sends each generator x to f(x), evaluated at d.
+  ///
+  /// `G` is an abelian group written with `+` and `count * g`; `zero` is its identity. O(|d|) calls.
+  template <class G, std::invocable<Atom const&> F>
+  [[nodiscard]] friend constexpr G extend(delta const& d, F&& f, G zero) {
+    for (entry const& x : d) zero = zero + x.count * f(x.atom);
+    return zero;
+  }
+
+private:
+  static constexpr bool sum_fits(Coefficient const& a, Coefficient const& b) {
+    if constexpr (std::integral<Coefficient>) {
+      using limits = std::numeric_limits<Coefficient>;
+      return b >= 0 ? a <= limits::max() - b : a >= limits::min() - b;
+    } else {
+      return true;  // an exact integer type
+    }
+  }
+  static constexpr bool product_fits(Coefficient const& a, Coefficient const& b) {
+    if constexpr (std::integral<Coefficient>) {
+      Coefficient out{};
+      return !__builtin_mul_overflow(a, b, &out);
+    } else {
+      return true;
+    }
+  }
+
+  small_vector<entry, 8> entries_;
+};
+
+template <ordered_atom Atom>
+delta(event<Atom>) -> delta<Atom>;
+template <ordered_atom Atom>
+delta(atom_set<Atom>) -> delta<Atom>;
+
+}  // namespace rota

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <rota/algebra/atom_set.hpp>
+#include <rota/core/result.hpp>
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+
+namespace rota {
+
+/// The value of an event on one atom: −1 subtracted, 0 not mentioned, +1 added.
+enum class sign : std::int8_t { minus = -1, zero = 0, plus = 1 };
+
+[[nodiscard]] constexpr int to_int(sign s) noexcept { return static_cast<int>(s); }
+
+/// clamp(s + t) into [−1, +1]: Def. 4 at one atom. Commutative, with identity and unique inverses; not associative.
+[[nodiscard]] constexpr sign clamped_sum(sign s, sign t) noexcept {
+  int const sum = to_int(s) + to_int(t);
+  return sum > 0 ? sign::plus : sum < 0 ? sign::minus : sign::zero;
+}
+
+/// One entry of an event. The sign of a stored entry is never zero.
+template <ordered_atom Atom>
+struct signed_atom {
+  Atom atom{};
+  sign value = sign::plus;
+
+  friend constexpr auto operator<=>(signed_atom const&, signed_atom const&) = default;
+};
+
+/// Refusal: one atom is both added and subtracted, so the two sets are no event (Def. 3).
+template <ordered_atom Atom>
+struct overlap {
+  Atom witness{};
+  friend constexpr bool operator==(overlap const&, overlap const&) = default;
+};
+
+/// An allocation event e = (ϑ⁺, ϑ⁻) of Def. 3: a finitely supported sign function Atoms → {−1, 0, +1}.
+///
+/// Class invariant: entries strictly ascending by atom, no sign zero; hence ϑ⁺ ∩ ϑ⁻ = ∅. Up to eight entries live inside
+/// the object.
+///
+/// Laws under `compose` (Def. 4): closed; `{}` is the identity; `inverse(e)` is the only f with compose(e, f) = {};
+/// commutative. Not associative and not cancellative, since e∘e = e: this is no group. `delta` is.
+template <ordered_atom Atom>
+class event {
+public:
+  using atom_type = Atom;
+  using entry = signed_atom<Atom>;
+
+  /// The identity (∅, ∅).
+  constexpr event() = default;
+
+  /// (ϑ⁺, ϑ⁻), or the least atom that stands in both. O(|ϑ⁺| + |ϑ⁻|).
+  [[nodiscard]] static constexpr result<event, overlap<Atom>> make(atom_set<Atom> const& additions,
+                                                                   atom_set<Atom> const& subtractions) {
+    event e;
+    auto a = additions.begin();
+    auto s = subtractions.begin();
+    while (a != additions.end() || s != subtractions.end()) {
+      if (s == subtractions.end() || (a != additions.end() && *a < *s)) {
+        e.entries_.push_back({*a++, sign::plus});
+      } else if (a == additions.end() || *s < *a) {
+        e.entries_.push_back({*s++, sign::minus});
+      } else {
+        return refused{overlap<Atom>{*a}};
+      }
+    }
+    return e;
+  }
+
+  /// ({x}, ∅).
+  [[nodiscard]] static constexpr event addition(Atom const& x) { return single(x, sign::plus); }
+  /// (∅, {x}).
+  [[nodiscard]] static constexpr event subtraction(Atom const& x) { return single(x, sign::minus); }
+
+  /// The entries, ascending by atom.
+  [[nodiscard]] constexpr entry const* begin() const noexcept { return entries_.begin(); }
+  [[nodiscard]] constexpr entry const* end() const noexcept { return entries_.end(); }
+  [[nodiscard]] constexpr std::size_t size() const noexcept { return entries_.size(); }
+  [[nodiscard]] constexpr bool empty() const noexcept { return entries_.empty(); }
+
+  /// e(x). O(log n).
+  [[nodiscard]] constexpr sign operator()(Atom const& x) const {
+    auto const* where =
+        std::lower_bound(begin(), end(), x, [](entry const& y, Atom const& key) { return y.atom < key; });
+    return where != end() && where->atom == x ? where->value : sign::zero;
+  }
+  /// ϑ⁺.
+  [[nodiscard]] constexpr atom_set<Atom> additions() const { return part(sign::plus); }
+  /// ϑ⁻.
+  [[nodiscard]] constexpr atom_set<Atom> subtractions() const { return part(sign::minus); }
+
+  friend constexpr bool operator==(event const&, event const&) = default;
+  /// A total order (lexicographic by entries), for keys only.
+  friend constexpr auto operator<=>(event const&, event const&) = default;
+
+  /// e ∘ f of Def. 4, to the letter: at each atom the clamped sum. Brackets matter, so this is no operator. O(|e| + |f|).
+  [[nodiscard]] friend constexpr event compose(event const& e, event const& f) {
+    event r;
+    r.entries_.reserve(e.size() + f.size());
+    auto x = e.begin();
+    auto y = f.begin();
+    while (x != e.end() && y != f.end()) {
+      if (x->atom < y->atom) {
+        r.entries_.push_back(*x++);
+      } else if (y->atom < x->atom) {
+        r.entries_.push_back(*y++);
+      } else {
+        if (sign const s = clamped_sum(x->value, y->value); s != sign::zero) r.entries_.push_back({x->atom, s});
+        ++x, ++y;
+      }
+    }
+    for (; x != e.end(); ++x) r.entries_.push_back(*x);
+    for (; y != f.end(); ++y) r.entries_.push_back(*y);
+    return r;
+  }
+
+  /// (ϑ⁻, ϑ⁺): the only event that composes with e to the identity. O(|e|).
+  [[nodiscard]] friend constexpr event inverse(event const& e) {
+    event r = e;
+    for (entry& x : r.entries_) x.value = x.value == sign::plus ? sign::minus : sign::plus;
+    return r;
+  }
+
+  /// The event with these entries. @pre strictly ascending by atom, no sign zero
+  [[nodiscard]] static constexpr event from_entries(small_vector<entry, 8> entries) {
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      ROTA_ASSERT(entries[i].value != sign::zero);
+      ROTA_ASSERT(i == 0 || entries[i - 1].atom < entries[i].atom);
+    }
+    event e;
+    e.entries_ = std::move(entries);
+    return e;
+  }
+
+private:
+  static constexpr event single(Atom const& x, sign s) {
+    event e;
+    e.entries_.push_back({x, s});
+    return e;
+  }
+  constexpr atom_set<Atom> part(sign s) const {
+    atom_set<Atom> r;
+    for (entry const& x : entries_)
+      if (x.value == s) r.insert(x.atom);
+    return r;
+  }
+
+  small_vector<entry, 8> entries_;
+};
+
+}  // namespace rota

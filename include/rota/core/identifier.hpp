@@ -1,0 +1,28 @@
+#pragma once
+
+#include <compare>
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
+
+namespace rota {
+
+/// A name: regular, totally ordered, cheap to copy. Enumerations, integers and `id<Tag>` qualify.
+///
+/// Refuses `double` and `float`: NaN makes their order partial, and two beliefs may round differently.
+template <class T>
+concept identifier =
+    std::regular<T> && std::totally_ordered<T> && std::is_trivially_copyable_v<T> && !std::floating_point<T>;
+
+/// A strong run-time identifier, for names read from plan files or messages.
+///
+/// `Rep` is 64 bits by default (ALICA's ids); an array of 16 bytes serves for UUIDs. Different tags never mix.
+template <class Tag, class Rep = std::uint64_t>
+struct id {
+  using rep = Rep;
+  Rep value{};
+
+  friend constexpr auto operator<=>(id const&, id const&) = default;
+};
+
+}  // namespace rota

@@ -1,0 +1,147 @@
+#pragma once
+
+#include <rota/core/assert.hpp>
+
+#include <algorithm>
+#include <compare>
+#include <concepts>
+#include <cstddef>
+#include <initializer_list>
+#include <iterator>
+#include <utility>
+
+namespace rota {
+
+/// A sequence whose first `N` elements live inside the object: up to `N` nothing is allocated.
+///
+/// Why not boost::container::small_vector: that of Boost 1.74 works in no constant expression, and costs three times
+/// `<vector>` to include. Elements are regular and default constructible, which keeps this one short; unused inline
+/// elements are value-initialised, and removed ones keep their last value until overwritten.
+///
+/// Complexity: as std::vector; move is O(N) while inline.
+template <std::semiregular T, std::size_t N>
+class small_vector {
+public:
+  using value_type = T;
+  using size_type = std::size_t;
+  using iterator = T*;
+  using const_iterator = T const*;
+
+  constexpr small_vector() = default;
+  constexpr small_vector(std::initializer_list<T> items) { assign(items.begin(), items.end()); }
+  template <std::input_iterator I, std::sentinel_for<I> S>
+  constexpr small_vector(I first, S last) {
+    assign(first, last);
+  }
+
+  constexpr small_vector(small_vector const& other) { assign(other.begin(), other.end()); }
+  constexpr small_vector(small_vector&& other) noexcept { take(other); }
+  constexpr small_vector& operator=(small_vector const& other) {
+    if (this != &other) assign(other.begin(), other.end());
+    return *this;
+  }
+  constexpr small_vector& operator=(small_vector&& other) noexcept {
+    if (this != &other) {
+      delete[] heap_;
+      take(other);
+    }
+    return *this;
+  }
+  constexpr ~small_vector() { delete[] heap_; }
+
+  [[nodiscard]] constexpr T* data() noexcept { return heap_ ? heap_ : inline_; }
+  [[nodiscard]] constexpr T const* data() const noexcept { return heap_ ? heap_ : inline_; }
+  [[nodiscard]] constexpr T* begin() noexcept { return data(); }
+  [[nodiscard]] constexpr T* end() noexcept { return data() + size_; }
+  [[nodiscard]] constexpr T const* begin() const noexcept { return data(); }
+  [[nodiscard]] constexpr T const* end() const noexcept { return data() + size_; }
+  [[nodiscard]] constexpr std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] constexpr std::size_t capacity() const noexcept { return capacity_; }
+  [[nodiscard]] constexpr bool empty() const noexcept { return size_ == 0; }
+
+  /// @pre `i < size()`
+  [[nodiscard]] constexpr T& operator[](std::size_t i) noexcept {
+    ROTA_ASSERT(i < size_);
+    return data()[i];
+  }
+  [[nodiscard]] constexpr T const& operator[](std::size_t i) const noexcept {
+    ROTA_ASSERT(i < size_);
+    return data()[i];
+  }
+  /// @pre `!empty()`
+  [[nodiscard]] constexpr T& back() noexcept { return (*this)[size_ - 1]; }
+  [[nodiscard]] constexpr T const& back() const noexcept { return (*this)[size_ - 1]; }
+
+  constexpr void clear() noexcept { size_ = 0; }
+
+  constexpr void reserve(std::size_t wanted) {
+    if (wanted <= capacity_) return;
+    T* bigger = new T[wanted]{};
+    std::move(begin(), end(), bigger);
+    delete[] heap_;
+    heap_ = bigger;
+    capacity_ = wanted;
+  }
+
+  constexpr void resize(std::size_t wanted) {
+    reserve(wanted);
+    for (std::size_t i = size_; i < wanted; ++i) data()[i] = T{};
+    size_ = wanted;
+  }
+
+  constexpr void push_back(T item) {
+    if (size_ == capacity_) reserve(capacity_ < 4 ? 8 : 2 * capacity_);
+    data()[size_++] = std::move(item);
+  }
+  /// @pre `!empty()`
+  constexpr void pop_back() noexcept {
+    ROTA_ASSERT(size_ > 0);
+    --size_;
+  }
+
+  constexpr T* insert(T const* where, T item) {
+    auto const at = where - data();
+    push_back(std::move(item));
+    std::rotate(data() + at, end() - 1, end());
+    return data() + at;
+  }
+  constexpr T* erase(T const* where) { return erase(where, where + 1); }
+  constexpr T* erase(T const* first, T const* last) {
+    auto const at = first - data();
+    auto const count = last - first;
+    std::move(data() + at + count, end(), data() + at);
+    size_ -= static_cast<std::size_t>(count);
+    return data() + at;
+  }
+
+  template <class I, class S>
+  constexpr void assign(I first, S last) {
+    size_ = 0;
+    if constexpr (std::sized_sentinel_for<S, I>) reserve(static_cast<std::size_t>(last - first));
+    for (; first != last; ++first) push_back(*first);
+  }
+
+  friend constexpr bool operator==(small_vector const& a, small_vector const& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+  friend constexpr auto operator<=>(small_vector const& a, small_vector const& b)
+    requires std::three_way_comparable<T>
+  {
+    return std::lexicographical_compare_three_way(a.begin(), a.end(), b.begin(), b.end());
+  }
+
+private:
+  constexpr void take(small_vector& other) noexcept {
+    heap_ = std::exchange(other.heap_, nullptr);
+    capacity_ = std::exchange(other.capacity_, N);
+    size_ = std::exchange(other.size_, 0);
+    if (!heap_) std::move(other.inline_, other.inline_ + size_, inline_);
+  }
+
+  T inline_[N]{};
+  T* heap_ = nullptr;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = N;
+};
+
+}  // namespace rota
