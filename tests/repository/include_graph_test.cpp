@@ -1,0 +1,149 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+using sources = std::map<std::string, std::string>;  // header name as included, such as rota/core/in.hpp, to its text
+
+sources public_headers() {
+  namespace fs = std::filesystem;
+  fs::path const root = fs::path{ROTA_SOURCE_DIR} / "include";
+  sources result;
+  for (auto const& entry : fs::recursive_directory_iterator{root}) {
+    if (entry.path().extension() != ".hpp") continue;
+    std::ostringstream text;
+    text << std::ifstream{entry.path()}.rdbuf();
+    result.emplace(entry.path().lexically_relative(root).generic_string(), text.str());
+  }
+  return result;
+}
+
+std::vector<std::string> includes_of(std::string const& text) {
+  static std::regex const directive{R"((?:^|\n)[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"])"};
+  std::vector<std::string> result;
+  for (std::sregex_iterator it{text.begin(), text.end(), directive}; it != std::sregex_iterator{}; ++it)
+    result.push_back((*it)[1]);
+  return result;
+}
+
+/// The height of a header's room. The umbrella lies above team and below sim; adapters and testing above all, side by
+/// side.
+int height(std::string const& header) {
+  static std::vector<std::string> const rooms{"core",   "algebra", "logic", "model", "allocation",
+                                              "search", "team",    "",      "sim",   "adapters"};
+  auto const rest = header.substr(std::string_view{"rota/"}.size());
+  auto const slash = rest.find('/');
+  auto const room = slash == std::string::npos ? "" : rest.substr(0, slash);
+  auto const found = std::find(rooms.begin(), rooms.end(), room == "testing" ? "adapters" : room);
+  return found == rooms.end() ? -1 : static_cast<int>(found - rooms.begin());
+}
+
+std::string room_of(std::string const& header) { return std::filesystem::path{header}.parent_path().generic_string(); }
+
+std::vector<std::string> upward_includes(sources const& headers) {
+  std::vector<std::string> result;
+  for (auto const& [header, text] : headers) {
+    if (height(header) < 0) result.push_back(header + " lies in no known room");
+    for (auto const& included : includes_of(text)) {
+      bool const ours = included.starts_with("rota/");
+      if (!ours && headers.contains(room_of(header) + "/" + included))
+        result.push_back(header + " includes " + included + " by a relative name");
+      else if (ours && !headers.contains(included))
+        result.push_back(header + " includes " + included + ", which does not exist");
+      else if (ours && room_of(included) != room_of(header) && height(included) >= height(header))
+        result.push_back(header + " includes " + included + " from a room that is not below it");
+    }
+  }
+  return result;
+}
+
+using names = std::set<std::string>;
+
+/// All that including `header` includes, ours and not.
+names reached_from(sources const& headers, std::string const& header) {
+  names reached{header};
+  for (std::vector<std::string> open{header}; !open.empty();) {
+    auto const text = headers.find(open.back());
+    open.pop_back();
+    if (text == headers.end()) continue;
+    for (auto const& included : includes_of(text->second))
+      if (reached.insert(included).second) open.push_back(included);
+  }
+  return reached;
+}
+
+/// Those with a folder or an extension, hence not the standard library's, that are not ours.
+names foreign_headers(sources const& headers, std::string const& header) {
+  auto result = reached_from(headers, header);
+  std::erase_if(result, [&](std::string const& name) {
+    return headers.contains(name) || name.find_first_of("/.") == std::string::npos;
+  });
+  return result;
+}
+
+TEST(rooms, include_only_downwards) {
+  auto const headers = public_headers();
+  EXPECT_FALSE(headers.empty());
+  for (auto const& complaint : upward_includes(headers)) ADD_FAILURE() << complaint;
+}
+
+TEST(rooms, upward_includes_would_be_found) {
+  auto const complaints = [](std::string const& header, std::string const& text) {
+    sources headers{{"rota/core/in.hpp", ""},     {"rota/algebra/event.hpp", ""}, {"rota/team/agent.hpp", ""},
+                    {"rota/sim/world.hpp", ""},   {"rota/rota.hpp", ""},          {"rota/adapters/eigen.hpp", ""},
+                    {"rota/testing/laws.hpp", ""}};
+    headers.insert_or_assign(header, text);
+    return upward_includes(headers).size();
+  };
+  EXPECT_EQ(complaints("rota/core/a.hpp", "#include <rota/algebra/event.hpp>\n"), 1u);
+  EXPECT_EQ(complaints("rota/algebra/a.hpp", "#pragma once\n\n#  include \"rota/team/agent.hpp\"\n"), 1u);
+  EXPECT_EQ(complaints("rota/team/a.hpp", "#include <rota/sim/world.hpp>"), 1u);
+  EXPECT_EQ(complaints("rota/team/a.hpp", "#include <rota/rota.hpp>"), 1u);
+  EXPECT_EQ(complaints("rota/sim/a.hpp", "#include <rota/adapters/eigen.hpp>"), 1u);
+  EXPECT_EQ(complaints("rota/rota.hpp", "#include <rota/sim/world.hpp>"), 1u);
+  EXPECT_EQ(complaints("rota/adapters/a.hpp", "#include <rota/testing/laws.hpp>"), 1u);
+  EXPECT_EQ(complaints("rota/core/a.hpp", "#include \"in.hpp\"\n"), 1u);
+  EXPECT_EQ(complaints("rota/core/a.hpp", "#include <rota/core/absent.hpp>\n"), 1u);
+  EXPECT_EQ(complaints("rota/attic/a.hpp", ""), 1u);
+  EXPECT_EQ(complaints("rota/algebra/a.hpp", "#include <rota/core/in.hpp>\n#include <vector>\n"), 0u);
+  EXPECT_EQ(complaints("rota/rota.hpp", "#include <rota/team/agent.hpp>\n"), 0u);
+  EXPECT_EQ(complaints("rota/sim/a.hpp", "#include <rota/rota.hpp>\n"), 0u);
+  EXPECT_EQ(complaints("rota/core/a.hpp", "// #include <rota/team/agent.hpp>\n"), 0u);
+}
+
+TEST(umbrella, reaches_the_standard_library_only) {
+  auto const headers = public_headers();
+  if (!headers.contains("rota/rota.hpp")) GTEST_SKIP() << "no umbrella yet";
+  EXPECT_EQ(foreign_headers(headers, "rota/rota.hpp"), names{});
+}
+
+TEST(umbrella, foreign_headers_would_be_found) {
+  sources const headers{
+      {"rota/rota.hpp", "#include <rota/core/a.hpp>\n#include <vector>\n"},
+      {"rota/core/a.hpp", "#include <rota/core/b.hpp>\n"},
+      {"rota/core/b.hpp", "#include <rota/core/a.hpp>\n#include <Eigen/Core>\n#include <rapidcheck.h>\n"}};
+  EXPECT_EQ(foreign_headers(headers, "rota/rota.hpp"), (names{"Eigen/Core", "rapidcheck.h"}));
+}
+
+TEST(umbrella, holds_every_room_from_core_to_team) {
+  auto const headers = public_headers();
+  if (!headers.contains("rota/rota.hpp")) GTEST_SKIP() << "no umbrella yet";
+  auto const reached = reached_from(headers, "rota/rota.hpp");
+  // The bridge to std::chrono costs more to compile than all else together: it is for those who ask.
+  names const apart{"rota/core/chrono.hpp"};
+  for (auto const& [header, text] : headers)
+    EXPECT_TRUE(height(header) > height("rota/rota.hpp") || reached.contains(header) || apart.contains(header))
+        << header;
+}
+
+}  // namespace
