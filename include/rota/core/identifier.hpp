@@ -22,7 +22,7 @@ struct id {
   using rep = Rep;
   Rep value{};
 
-  friend constexpr auto operator<=>(id const&, id const&) = default;
+  friend constexpr std::strong_ordering operator<=>(id const&, id const&) = default;
 };
 
 }  // namespace rota

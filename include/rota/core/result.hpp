@@ -31,16 +31,16 @@ public:
   [[nodiscard]] constexpr bool has_value() const noexcept { return state_.index() == 0; }
   constexpr explicit operator bool() const noexcept { return has_value(); }
 
+  // get, not get_if: for g++ 12 the address of a temporary is no constant, so `*f()` would be no constant expression.
+
   /// @pre `has_value()`
   [[nodiscard]] constexpr T const& value() const& noexcept {
-    auto const* v = std::get_if<0>(&state_);
-    ROTA_ASSERT(v != nullptr);
-    return *v;
+    ROTA_ASSERT(has_value());
+    return std::get<0>(state_);
   }
   [[nodiscard]] constexpr T& value() & noexcept {
-    auto* v = std::get_if<0>(&state_);
-    ROTA_ASSERT(v != nullptr);
-    return *v;
+    ROTA_ASSERT(has_value());
+    return std::get<0>(state_);
   }
   [[nodiscard]] constexpr T&& value() && noexcept { return std::move(value()); }
 
@@ -52,9 +52,8 @@ public:
 
   /// @pre `!has_value()`
   [[nodiscard]] constexpr Refusal const& error() const noexcept {
-    auto const* e = std::get_if<1>(&state_);
-    ROTA_ASSERT(e != nullptr);
-    return *e;
+    ROTA_ASSERT(!has_value());
+    return std::get<1>(state_);
   }
 
   friend constexpr bool operator==(result const&, result const&) = default;

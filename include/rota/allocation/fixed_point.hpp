@@ -1,0 +1,65 @@
+#pragma once
+
+#include <rota/core/result.hpp>
+
+#include <compare>
+#include <cstdint>
+#include <limits>
+
+namespace rota {
+
+/// Why a utility cannot be counted.
+enum class utility_fault : unsigned char {
+  none,               ///< nothing is wrong
+  not_a_number,       ///< NaN
+  positive_infinity,  ///< +∞
+  negative_infinity,  ///< −∞; to forbid a pair, return `nullopt`
+  out_of_range,       ///< |u| > `max_utility`, or a sum beyond 64 bits
+  forbidden_pair,     ///< the additive utility forbids this pair (`nullopt`), so U_p is not defined
+  threw,              ///< the user's function threw
+  negative            ///< clause (6): U_p < 0
+};
+
+/// The greatest magnitude of one utility.
+inline constexpr double max_utility = 1073741824.0;  // 2^30
+
+/// A utility as an integer number of units of 2^-20.
+///
+/// Quantised once, then summed exactly: no sum depends on its order, so agents with equal beliefs decide equally.
+/// Sums of up to 4096 utilities cannot overflow.
+struct fixed_utility {
+  static constexpr double units_per_one = 1048576.0;  // 2^20
+  std::int64_t units = 0;
+
+  friend constexpr auto operator<=>(fixed_utility, fixed_utility) = default;
+};
+
+/// The fixed-point value nearest to u, halves away from zero, whatever the rounding mode; or why there is none.
+[[nodiscard]] constexpr result<fixed_utility, utility_fault> quantise(double u) noexcept {
+  if (u != u) return refused{utility_fault::not_a_number};
+  if (u > std::numeric_limits<double>::max()) return refused{utility_fault::positive_infinity};
+  if (u < std::numeric_limits<double>::lowest()) return refused{utility_fault::negative_infinity};
+  if (u > max_utility || u < -max_utility) return refused{utility_fault::out_of_range};
+  double const scaled = u * fixed_utility::units_per_one;  // exact: a power of two
+  auto units = static_cast<std::int64_t>(scaled);
+  double const rest = scaled - static_cast<double>(units);
+  if (rest >= 0.5) ++units;
+  if (rest <= -0.5) --units;
+  return fixed_utility{units};
+}
+
+/// The value as a number; exact while its magnitude is at most 2^33.
+[[nodiscard]] constexpr double to_double(fixed_utility u) noexcept {
+  return static_cast<double>(u.units) / fixed_utility::units_per_one;
+}
+
+/// total ← total + term; false and unchanged where 64 bits do not hold the sum.
+[[nodiscard]] constexpr bool checked_add(fixed_utility& total, fixed_utility term) noexcept {
+  using limits = std::numeric_limits<std::int64_t>;
+  if (term.units > 0 ? total.units > limits::max() - term.units : total.units < limits::min() - term.units)
+    return false;
+  total.units += term.units;
+  return true;
+}
+
+}  // namespace rota

@@ -1,0 +1,24 @@
+#pragma once
+/// @file
+/// The umbrella: everything from core/ to team/. No Eigen, no rapidcheck, no JSON, no networking, no Boost.
+
+#include <rota/algebra/action.hpp>
+#include <rota/algebra/associativity.hpp>
+#include <rota/algebra/atom_set.hpp>
+#include <rota/algebra/delta.hpp>
+#include <rota/algebra/event.hpp>
+#include <rota/allocation/problem.hpp>
+#include <rota/allocation/utility.hpp>
+#include <rota/allocation/validate.hpp>
+#include <rota/core/atom.hpp>
+#include <rota/core/result.hpp>
+#include <rota/core/time.hpp>
+#include <rota/core/vocabulary.hpp>
+#include <rota/model/outline.hpp>
+#include <rota/model/plan_type.hpp>
+#include <rota/model/team.hpp>
+#include <rota/search/best_allocation.hpp>
+#include <rota/search/reallocate.hpp>
+#include <rota/team/agent.hpp>
+#include <rota/team/conflict.hpp>
+#include <rota/team/cycle.hpp>

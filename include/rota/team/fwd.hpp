@@ -1,0 +1,22 @@
+#pragma once
+
+#include <rota/model/fwd.hpp>
+
+namespace rota {
+
+template <vocabulary V>
+struct plan_message;
+template <vocabulary V>
+struct claim;
+template <vocabulary V>
+class belief;
+template <vocabulary V>
+class cycle_monitor;
+template <vocabulary V>
+class literal_monitor;
+template <vocabulary V>
+class authority;
+template <vocabulary V, class Monitor>
+class agent;
+
+}  // namespace rota
