@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -29,10 +28,14 @@ sources public_headers() {
 }
 
 std::vector<std::string> includes_of(std::string const& text) {
-  static std::regex const directive{R"((?:^|\n)[ \t]*#[ \t]*include[ \t]*[<"]([^>"]+)[>"])"};
   std::vector<std::string> result;
-  for (std::sregex_iterator it{text.begin(), text.end(), directive}; it != std::sregex_iterator{}; ++it)
-    result.push_back((*it)[1]);
+  std::istringstream lines{text};
+  for (std::string line; std::getline(lines, line);) {
+    std::erase_if(line, [](char c) { return c == ' ' || c == '\t'; });
+    if (!line.starts_with("#include<") && !line.starts_with("#include\"")) continue;
+    auto const first = std::string_view{"#include<"}.size();
+    result.push_back(line.substr(first, line.find_first_of(">\"", first) - first));
+  }
   return result;
 }
 
