@@ -109,7 +109,7 @@ public:
   constexpr T* erase(T const* first, T const* last) {
     auto const at = first - data();
     auto const count = last - first;
-    std::move(data() + at + count, end(), data() + at);
+    if (count > 0) std::move(data() + at + count, end(), data() + at);  // no self-move: it would empty a string
     size_ -= static_cast<std::size_t>(count);
     return data() + at;
   }
