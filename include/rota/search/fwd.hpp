@@ -1,0 +1,21 @@
+#pragma once
+
+#include <rota/allocation/fwd.hpp>
+
+namespace rota {
+
+struct search_budget;
+struct search_work;
+class workspace;
+enum class no_plan_reason : unsigned char;
+enum class reallocation_reason : unsigned char;
+template <vocabulary V>
+struct solution;
+template <vocabulary V>
+struct plan_refusal;
+template <vocabulary V>
+struct no_allocation;
+template <vocabulary V>
+struct reallocation;
+
+}  // namespace rota

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <rota/algebra/action.hpp>
+#include <rota/allocation/hysteresis.hpp>
+#include <rota/allocation/validate.hpp>
+#include <rota/search/best_allocation.hpp>
+
+#include <optional>
+
+namespace rota {
+
+/// Why a reallocation ended as it did.
+enum class reallocation_reason : unsigned char {
+  first,                ///< there was no allocation (C = ∅); the best is adopted
+  adopted_better,       ///< the best beats the current one by more than the margin
+  current_invalid,      ///< the current one is not valid (any more); the best is adopted
+  kept_optimal,         ///< nothing is better than the current one, proved
+  kept_hysteresis,      ///< something is better, by no more than the margin
+  kept_unproved,        ///< the budget ran out, and nothing found beats the current one
+  no_valid_allocation,  ///< proved; the allocation becomes ∅
+  search_incomplete     ///< the current one is not valid, and the budget ran out before a valid one was found; becomes ∅
+};
+
+/// What to do now: `event` leads from the current allocation to `atoms`.
+template <vocabulary V = runtime_vocabulary>
+struct reallocation {
+  rota::event<in<V>> event;
+  allocation_atoms<V> atoms;
+  std::optional<typename V::plan> plan{};  ///< of `atoms`; none if there is no valid allocation
+  double utility = 0;                      ///< of `atoms`
+  reallocation_reason reason{};
+  std::optional<double> gain{};  ///< U(best) − U(current), if both are valid
+  bool optimal = false;          ///< no valid allocation is better than the best one found
+  search_work work{};
+
+  friend constexpr bool operator==(reallocation const&, reallocation const&) = default;
+};
+
+namespace detail {
+
+/// A valid current allocation: its plan and utility.
+template <vocabulary V>
+struct standing {
+  typename V::plan plan{};
+  fixed_utility utility{};
+  double hysteresis = 0;
+};
+
+/// What C is worth if it is valid for p; without a report.
+template <vocabulary V, class Beliefs>
+[[nodiscard]] std::optional<fixed_utility> worth(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
+                                                 allocation_atoms<V> const& atoms, plan_phase phase) {
+  bool valid = true;
+  judge(problem, p, atoms.atoms(), phase, [&](violation<V> const&) { valid = false; });
+  if (!valid) return std::nullopt;
+  auto const value = evaluate(problem, p, atoms);
+  if (!value) return std::nullopt;
+  return value.value();
+}
+
+template <vocabulary V, class Beliefs>
+[[nodiscard]] std::optional<standing<V>> standing_of(problem<V, Beliefs> const& problem,
+                                                     allocation_atoms<V> const& current) {
+  if (!current.empty()) {
+    auto const* p = problem.type.find(current.begin()->plan);
+    if (p == nullptr) return std::nullopt;
+    auto const value = worth(problem, *p, current, plan_phase::running);
+    if (!value) return std::nullopt;
+    return standing<V>{p->id(), *value, p->hysteresis()};
+  }
+  std::optional<standing<V>> best;
+  for (plan<V, Beliefs> const& p : problem.type.plans()) {
+    auto const value = worth(problem, p, current, plan_phase::entering);
+    if (value && (!best || *value > best->utility)) best = standing<V>{p.id(), *value, 0};
+  }
+  return best;
+}
+
+}  // namespace detail
+
+/// Decides whether to keep the current allocation, and if not, which one to adopt; under one's own beliefs only.
+///
+/// The current one is kept iff it is valid and U(best) ≤ U(current) + h; among equals nothing changes. h is
+/// `hysteresis::absolute`, otherwise the running plan's own. C = ∅ names no plan, so none is running: it counts as the
+/// best plan for which it is valid, preconditions are asked as on entry, and the plan's own hysteresis is 0. Otherwise
+/// every plan that occurs in C is running, and `precondition_scope::entry_only` is not asked of it.
+/// Where no valid allocation exists the team has none: the event subtracts every atom. That is honest (each atom would
+/// claim a validity the agent does not believe in), and the next call with a satisfiable problem starts as `first`.
+///
+/// Laws: event = difference(current, atoms), so it is applicable at `current`; calling again with `atoms` and unchanged
+/// beliefs gives the empty event.
+/// Complexity: `best_allocation`, and one evaluation of the current allocation.
+template <vocabulary V, class Beliefs>
+[[nodiscard]] reallocation<V> reallocate(problem<V, Beliefs> const& problem, allocation_atoms<V> const& current,
+                                         hysteresis h, workspace& work, search_budget budget = {}) {
+  reallocation<V> next;
+  auto const now = detail::standing_of(problem, current);
+  auto best = best_allocation(problem, work, budget, current.atoms());
+  next.optimal = best ? best->optimal : best.error().proved();
+  next.work = best ? best->work : best.error().work;
+  if (now && best) next.gain = to_double({best->exact.units - now->utility.units});
+
+  bool const keep =
+      now && (!best || !beats(best->exact, now->utility, margin_of(h.absolute.value_or(now->hysteresis))));
+  if (keep) {
+    next.atoms = current;
+    next.plan = now->plan;
+    next.utility = to_double(now->utility);
+    next.reason = best && best->exact > now->utility ? reallocation_reason::kept_hysteresis
+                  : next.optimal                     ? reallocation_reason::kept_optimal
+                                                     : reallocation_reason::kept_unproved;
+    return next;
+  }
+  if (best) {
+    next.atoms = std::move(best->atoms);
+    next.plan = best->plan;
+    next.utility = best->utility;
+    next.reason = current.empty() ? reallocation_reason::first
+                  : now           ? reallocation_reason::adopted_better
+                                  : reallocation_reason::current_invalid;
+  } else {
+    next.reason =
+        next.optimal ? reallocation_reason::no_valid_allocation : reallocation_reason::search_incomplete;
+  }
+  next.event = difference(current, next.atoms);
+  return next;
+}
+
+}  // namespace rota

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <rota/allocation/utility.hpp>
+#include <rota/core/small_vector.hpp>
+#include <rota/search/workspace.hpp>
+
+#include <cstddef>
+#include <optional>
+
+namespace rota {
+
+/// The second best plan of a type, at its own best allocation.
+template <vocabulary V>
+struct runner_up {
+  typename V::plan plan{};
+  double utility = 0;
+
+  friend constexpr bool operator==(runner_up const&, runner_up const&) = default;
+};
+
+/// The best valid allocation over all plans of a type.
+template <vocabulary V = runtime_vocabulary>
+struct solution {
+  typename V::plan plan{};
+  allocation_atoms<V> atoms;
+  double utility = 0;         ///< of `atoms`, exactly the fixed-point value (up to 2^33)
+  fixed_utility exact{};      ///< the same, for comparisons
+  bool optimal = false;       ///< proved: no valid allocation of any plan is better; false only if the budget ran out
+  search_work work{};
+  std::optional<rota::runner_up<V>> runner_up{};
+  /// The first term or total left out because it is no utility (NaN, ±∞, out of range, threw). Allocations that need it
+  /// are invalid, so the answer is right; the filler is not.
+  std::optional<utility_refusal<V>> ignored{};
+
+  friend constexpr bool operator==(solution const&, solution const&) = default;
+};
+
+/// Why a plan has no valid allocation, or none that was found.
+enum class no_plan_reason : unsigned char {
+  contradictory_cardinalities,  ///< the tasks' bounds sum to `count` agents, which the team size `bounds` never admits
+  too_few_agents,               ///< `count` take part, `bounds.min()` are needed
+  too_many_agents,              ///< `count` take part, nobody may idle, and there is room for `bounds.max()`
+  task_short,                   ///< `count` agents may take on `task`, which needs `bounds`
+  agent_without_task,           ///< `agent` may neither take on any task nor idle
+  pairs_contradict,             ///< each agent and task alone could be served, but not all (`agent` or `task`: one left over)
+  utility_refused,              ///< needs a utility that is none: `fault`, at (`agent`, `task`) if additive
+  precondition_never_holds,     ///< Pre(p) is false on every allocation that is valid otherwise
+  precondition_threw,           ///< and so does no admissible allocation remain
+  negative_utility,             ///< U_p is at most `value` < 0 on every allocation: clause (6)
+  search_incomplete             ///< the budget ran out before a valid allocation was found
+};
+
+/// Why one plan yields nothing, with its witness. Fields a reason does not mention keep their default.
+template <vocabulary V = runtime_vocabulary>
+struct plan_refusal {
+  typename V::plan plan{};
+  no_plan_reason why{};
+  typename V::agent agent{};
+  typename V::task task{};
+  std::size_t count = 0;
+  cardinality bounds{};
+  utility_fault fault{};
+  double value = 0;
+
+  friend constexpr bool operator==(plan_refusal const&, plan_refusal const&) = default;
+};
+
+/// Refusal: no plan of the type has a valid allocation, or none was found within the budget.
+template <vocabulary V = runtime_vocabulary>
+struct no_allocation {
+  small_vector<plan_refusal<V>, 2> plans;  ///< one per plan, ascending
+  search_work work{};
+
+  /// Whether this is a proof that there is none.
+  [[nodiscard]] constexpr bool proved() const noexcept {
+    for (auto const& p : plans)
+      if (p.why == no_plan_reason::search_incomplete) return false;
+    return true;
+  }
+
+  friend constexpr bool operator==(no_allocation const&, no_allocation const&) = default;
+};
+
+}  // namespace rota
