@@ -31,7 +31,7 @@ public:
   /// The entry of (p, τ), or nullptr where the type has no such task. O(log n).
   [[nodiscard]] entry const* find(typename V::plan p, typename V::task t) const {
     auto const where = std::lower_bound(entries_.begin(), entries_.end(), 0, [&](entry const& e, int) {
-      return e.plan < p || (e.plan == p && e.task < t);
+      return e.plan == p ? t > e.task : p > e.plan;
     });
     return where != entries_.end() && where->plan == p && where->task == t ? &*where : nullptr;
   }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <rota/model/outline.hpp>
-#include <rota/search/reallocate.hpp>
 #include <rota/team/authority.hpp>
 #include <rota/team/belief.hpp>
 #include <rota/team/decision.hpp>
@@ -171,9 +170,11 @@ public:
     problem<V, Beliefs> const p{pt, members, beliefs, t->believed.participants(), idle};
     auto next = reallocate(p, t->believed.atoms(), hysteresis{}, space, budget);
     d.event = impose(*t, next.atoms);
-    d.reason = next.reason == reallocation_reason::no_valid_allocation ? decision_reason::no_valid_allocation
-               : d.event.empty()                                       ? decision_reason::kept
-                                                                       : decision_reason::reallocated;
+    d.why = next.reason;
+    d.utility = next.utility;
+    d.reason = !next.plan          ? decision_reason::no_valid_allocation
+               : d.event.empty() ? decision_reason::kept
+                                 : decision_reason::reallocated;
     d.own = t->believed.part(self_);
     if (t->rule.leading()) {
       t->rule.revise(t->believed.atoms(), now);
@@ -215,7 +216,7 @@ public:
 
 private:
   struct peer {
-    agent_id id{};
+    agent_id who{};
     message_number last;
     friend bool operator==(peer const&, peer const&) = default;
   };
@@ -241,12 +242,12 @@ private:
   track* executed(type_id type) { return const_cast<track*>(std::as_const(*this).executed(type)); }
   peer const* find_peer(agent_id b) const {
     auto const where =
-        std::lower_bound(peers_.begin(), peers_.end(), b, [](peer const& p, agent_id key) { return p.id < key; });
-    return where != peers_.end() && where->id == b ? &*where : nullptr;
+        std::lower_bound(peers_.begin(), peers_.end(), b, [](peer const& p, agent_id key) { return p.who < key; });
+    return where != peers_.end() && where->who == b ? &*where : nullptr;
   }
   peer* find_peer(agent_id b) { return const_cast<peer*>(std::as_const(*this).find_peer(b)); }
 
-  stamp<V> my_stamp() const { return {options_.confidence, self_}; }
+  claim_stamp<V> my_stamp() const { return {options_.confidence, self_}; }
   static std::optional<in<V>> atom_of(agent_id b, std::optional<placement<V>> const& place) {
     if (!place) return std::nullopt;
     return in<V>{b, place->plan, place->task};

@@ -44,7 +44,7 @@ public:
   }
 
   /// Begins to lead with a claim of one's own. Its number is one more than that of the last. @pre `!leading()`
-  void lead(typename V::plan_type type, allocation_atoms<V> atoms, stamp<V> mine, std::uint64_t incarnation,
+  void lead(typename V::plan_type type, allocation_atoms<V> atoms, claim_stamp<V> mine, std::uint64_t incarnation,
             instant now, duration reign) {
     ROTA_ASSERT(!leading());
     end();
@@ -55,7 +55,7 @@ public:
   }
 
   /// Hears a claim that is well-formed and from somebody else. `mine` is one's own stamp, were one to claim now.
-  claim_outcome hear(claim<V> const& c, stamp<V> const& mine, instant now) {
+  claim_outcome hear(claim<V> const& c, claim_stamp<V> const& mine, instant now) {
     if (auto const* last = ended(c.leader); last && identity_of(c) <= *last) return claim_outcome::expired;
     if (active() && claim_.leader == c.leader) {
       identity const current = identity_of(claim_);

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <rota/search/reallocate.hpp>
+#include <rota/team/authority.hpp>
 #include <rota/team/belief.hpp>
 #include <rota/team/message.hpp>
-#include <rota/team/authority.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -52,7 +53,7 @@ enum class decision_reason : unsigned char {
   not_executing,       ///< the agent does not execute this plan type
   reallocated,         ///< a better allocation was adopted
   kept,                ///< the allocation stays
-  no_valid_allocation, ///< there is none; the agent is idle
+  no_valid_allocation, ///< none is known; nobody has a task
   obeyed               ///< a leader decides
 };
 
@@ -63,6 +64,8 @@ struct decision {
   rota::event<in<V>> event;                   ///< e_r; empty if nothing changed
   rota::event<in<V>> deleted;                 ///< what the deletion of silent agents took away before
   std::optional<in<V>> own;                   ///< what the agent itself has to do now
+  std::optional<reallocation_reason> why;     ///< of the reallocation, if one was made
+  double utility = 0;                         ///< of the allocation, if a reallocation was made
   std::uint32_t cycles = 0;                   ///< cycles that this deliberation completed
   std::optional<typename V::agent> detected;  ///< the sender of the n-th subsequent cycle, when a monitor fired
   bool reign_began = false;                   ///< the agent claims authority from now on

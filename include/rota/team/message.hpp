@@ -53,11 +53,11 @@ struct plan_message {
 ///
 /// With equal confidence, as by default, this is the paper's rule: the greatest id leads.
 template <vocabulary V = runtime_vocabulary>
-struct stamp {
+struct claim_stamp {
   std::uint32_t confidence = 0;
   typename V::agent id{};
 
-  friend constexpr auto operator<=>(stamp const&, stamp const&) = default;
+  friend constexpr auto operator<=>(claim_stamp const&, claim_stamp const&) = default;
 };
 
 /// A leader's claim of authority over one plan type (section 4, the bully algorithm).
@@ -68,7 +68,7 @@ template <vocabulary V = runtime_vocabulary>
 struct claim {
   typename V::plan_type type{};
   allocation_atoms<V> atoms;
-  rota::stamp<V> stamp;
+  claim_stamp<V> stamp;
   typename V::agent leader{};
   std::uint64_t incarnation = 0;
   std::uint64_t number = 0;
