@@ -183,7 +183,7 @@ using core_values::legacy_vocabulary;
 using core_values::unordered;
 using agent = rota::runtime_vocabulary::agent;
 using task = rota::runtime_vocabulary::task;
-using uuid = rota::id<struct uuid_tag, std::array<std::uint8_t, 16>>;
+using uuid = rota::strong_id<struct uuid_tag, std::array<std::uint8_t, 16>>;
 
 static_assert(rota::identifier<int> && rota::identifier<colour> && rota::identifier<agent> && rota::identifier<uuid>);
 static_assert(rota::identifier<legacy> && rota::vocabulary<legacy_vocabulary>);

@@ -7,7 +7,7 @@
 
 namespace rota {
 
-/// A name: regular, totally ordered, cheap to copy. Enumerations, integers and `id<Tag>` qualify.
+/// A name: regular, totally ordered, cheap to copy. Enumerations, integers and `strong_id<Tag>` qualify.
 ///
 /// Refuses `double` and `float`: NaN makes their order partial, and two beliefs may round differently.
 template <class T>
@@ -18,11 +18,11 @@ concept identifier =
 ///
 /// `Rep` is 64 bits by default (ALICA's ids); an array of 16 bytes serves for UUIDs. Different tags never mix.
 template <class Tag, class Rep = std::uint64_t>
-struct id {
+struct strong_id {
   using rep = Rep;
   Rep value{};
 
-  friend constexpr std::strong_ordering operator<=>(id const&, id const&) = default;
+  friend constexpr std::strong_ordering operator<=>(strong_id const&, strong_id const&) = default;
 };
 
 }  // namespace rota

@@ -13,11 +13,11 @@ concept vocabulary = identifier<typename V::agent> && identifier<typename V::pla
 
 /// The vocabulary whose names are known at run time only: plan files, configuration, messages.
 struct runtime_vocabulary {
-  using agent = id<struct agent_tag>;
-  using plan_type = id<struct plan_type_tag>;
-  using plan = id<struct plan_tag>;
-  using task = id<struct task_tag>;
-  using state = id<struct state_tag>;
+  using agent = strong_id<struct agent_tag>;
+  using plan_type = strong_id<struct plan_type_tag>;
+  using plan = strong_id<struct plan_tag>;
+  using task = strong_id<struct task_tag>;
+  using state = strong_id<struct state_tag>;
 };
 
 static_assert(vocabulary<runtime_vocabulary>);
