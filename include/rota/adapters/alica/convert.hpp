@@ -1,0 +1,98 @@
+#pragma once
+
+#include <rota/adapters/alica/model.hpp>
+#include <rota/core/result.hpp>
+#include <rota/model/plan_type.hpp>
+#include <rota/model/role.hpp>
+
+#include <concepts>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rota::alica {
+
+/// What a plan file does not say, and a plan needs: a factory of utilities, one per plan.
+template <class F, class Beliefs>
+concept utility_factory = requires(F const& f, plan const& p) {
+  { f(p) } -> std::convertible_to<rota::utility<runtime_vocabulary, Beliefs>>;
+};
+
+/// The name that a task has within a plan: its id; where several entry points share the task, the entry point's id, as
+/// ALICA allocates entry points. Both are unique within a root.
+[[nodiscard]] inline runtime_vocabulary::task task_key(plan const& p, entry_point const& e) {
+  return {shares_task(p, e) ? e.id : e.task};
+}
+
+/// Refusal: why a plan of a file makes no plan of the library, in words that name it.
+struct conversion_defect {
+  identity plan = 0;
+  std::string reason;
+};
+
+/// The plan, with its cardinalities, entry states, team size and hysteresis. Its precondition is the caller's: the files
+/// hold only text, or nothing at all. O(t²).
+template <class Beliefs = no_beliefs, utility_factory<Beliefs> F>
+[[nodiscard]] result<rota::plan<runtime_vocabulary, Beliefs>, conversion_defect>
+to_plan(plan const& p, F const& make_utility, precondition<runtime_vocabulary, Beliefs> holds = {}) {
+  plan_description<runtime_vocabulary, Beliefs> d;
+  d.plan = {p.id};
+  for (entry_point const& e : p.entry_points) d.tasks.push_back({task_key(p, e), e.bounds, {e.state}});
+  d.utility = make_utility(p);
+  d.precondition = std::move(holds);
+  d.team_size = p.team_size;
+  d.hysteresis = p.utility_threshold;
+  auto made = rota::plan<runtime_vocabulary, Beliefs>::make(std::move(d));
+  if (made) return *std::move(made);
+  using kind = plan_defect<runtime_vocabulary>::kind;
+  auto const reason = made.error().what == kind::repeated_task     ? "two entry points have one id"
+                      : made.error().what == kind::no_task         ? "no entry point"
+                      : made.error().what == kind::missing_utility ? "the factory gave no utility"
+                                                                   : "the utility threshold is negative or not finite";
+  return refused{conversion_defect{p.id, reason}};
+}
+
+/// The activated plans of a type.
+template <class Beliefs = no_beliefs, utility_factory<Beliefs> F>
+[[nodiscard]] result<rota::plan_type<runtime_vocabulary, Beliefs>, conversion_defect>
+to_plan_type(model const& m, plan_type const& t, F const& make_utility) {
+  std::vector<rota::plan<runtime_vocabulary, Beliefs>> plans;
+  for (plan_choice const& c : t.plans) {
+    if (!c.activated) continue;
+    auto const* p = m.find_plan(t.root, c.plan);
+    if (p == nullptr) return refused{conversion_defect{c.plan, "the model has no such plan"}};
+    auto made = to_plan<Beliefs>(*p, make_utility);
+    if (!made) return refused{made.error()};
+    plans.push_back(*std::move(made));
+  }
+  auto made = rota::plan_type<runtime_vocabulary, Beliefs>::make({t.id}, std::move(plans));
+  if (!made) return refused{conversion_defect{t.id, "no activated plan, or one twice"}};
+  return *std::move(made);
+}
+
+/// The plan type that offers one plan only; it bears the plan's id.
+template <class Beliefs = no_beliefs, utility_factory<Beliefs> F>
+[[nodiscard]] result<rota::plan_type<runtime_vocabulary, Beliefs>, conversion_defect>
+to_plan_type(plan const& p, F const& make_utility) {
+  auto made = to_plan<Beliefs>(p, make_utility);
+  if (!made) return refused{made.error()};
+  std::vector<rota::plan<runtime_vocabulary, Beliefs>> plans;
+  plans.push_back(*std::move(made));
+  return *rota::plan_type<runtime_vocabulary, Beliefs>::make({p.id}, std::move(plans));
+}
+
+/// The role, over the names that `task_key` gives to the tasks of the plans of its root.
+[[nodiscard]] inline rota::role<runtime_vocabulary> to_role(model const& m, role const& r) {
+  rota::role<runtime_vocabulary> out{r.default_priority};
+  for (task_priority const& t : r.priorities) {
+    out.prioritise({t.task}, t.priority);
+    for (plan const& p : m.plans) {
+      if (p.root != r.root) continue;
+      for (entry_point const& e : p.entry_points)
+        if (e.task == t.task && shares_task(p, e)) out.prioritise({e.id}, t.priority);
+    }
+  }
+  return out;
+}
+
+}  // namespace rota::alica

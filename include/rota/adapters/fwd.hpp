@@ -1,0 +1,17 @@
+#pragma once
+
+#include <rota/core/fwd.hpp>
+
+namespace rota::alica {
+
+struct diagnostic;
+struct document;
+struct entry_point;
+struct plan;
+struct plan_type;
+struct task;
+struct role;
+struct model;
+struct load_options;
+
+}  // namespace rota::alica
