@@ -64,31 +64,42 @@ public:
   /// A total order of sets (lexicographic), so that sets can be atoms and keys. It is not inclusion.
   friend constexpr auto operator<=>(atom_set const&, atom_set const&) = default;
 
-  /// C ∪ D. O(|C| + |D|), as the two below.
-  [[nodiscard]] friend constexpr atom_set unite(atom_set const& c, atom_set const& d) {
-    atom_set r;
-    std::set_union(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(r.atoms_));
-    return r;
-  }
-  /// C ∩ D.
-  [[nodiscard]] friend constexpr atom_set intersect(atom_set const& c, atom_set const& d) {
-    atom_set r;
-    std::set_intersection(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(r.atoms_));
-    return r;
-  }
-  /// C ∖ D.
-  [[nodiscard]] friend constexpr atom_set subtract(atom_set const& c, atom_set const& d) {
-    atom_set r;
-    std::set_difference(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(r.atoms_));
-    return r;
-  }
-  /// C ⊆ D.
-  [[nodiscard]] friend constexpr bool is_subset(atom_set const& c, atom_set const& d) {
-    return std::includes(d.begin(), d.end(), c.begin(), c.end());
-  }
+  template <ordered_atom A>
+  friend constexpr atom_set<A> unite(atom_set<A> const&, atom_set<A> const&);
+  template <ordered_atom A>
+  friend constexpr atom_set<A> intersect(atom_set<A> const&, atom_set<A> const&);
+  template <ordered_atom A>
+  friend constexpr atom_set<A> subtract(atom_set<A> const&, atom_set<A> const&);
 
 private:
   small_vector<Atom, 8> atoms_;
 };
+
+/// C ∪ D. O(|C| + |D|), as the three below.
+template <ordered_atom Atom>
+[[nodiscard]] constexpr atom_set<Atom> unite(atom_set<Atom> const& c, atom_set<Atom> const& d) {
+  atom_set<Atom> r;
+  std::set_union(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(r.atoms_));
+  return r;
+}
+/// C ∩ D.
+template <ordered_atom Atom>
+[[nodiscard]] constexpr atom_set<Atom> intersect(atom_set<Atom> const& c, atom_set<Atom> const& d) {
+  atom_set<Atom> r;
+  std::set_intersection(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(r.atoms_));
+  return r;
+}
+/// C ∖ D.
+template <ordered_atom Atom>
+[[nodiscard]] constexpr atom_set<Atom> subtract(atom_set<Atom> const& c, atom_set<Atom> const& d) {
+  atom_set<Atom> r;
+  std::set_difference(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(r.atoms_));
+  return r;
+}
+/// C ⊆ D.
+template <ordered_atom Atom>
+[[nodiscard]] constexpr bool is_subset(atom_set<Atom> const& c, atom_set<Atom> const& d) {
+  return std::includes(d.begin(), d.end(), c.begin(), c.end());
+}
 
 }  // namespace rota

@@ -25,16 +25,22 @@ struct multiple {
   friend constexpr auto operator<=>(multiple const&, multiple const&) = default;
 };
 
+/// What stands for ℤ: signed integers, or an exact big integer.
+///
+/// Refuses unsigned types, which hold no −1, so that ι would wrap; and floating point, whose sums depend on the brackets.
+template <class T>
+concept integer_coefficient =
+    std::regular<T> && std::totally_ordered<T> && !std::unsigned_integral<T> && !std::floating_point<T>;
+
 /// A finitely supported function Atoms → ℤ: an element of the free abelian group ℤ^(Atoms).
 ///
 /// This is the abelian group of allocation events; the paper's events (Def. 3) are its elements with values in {−1, 0, +1},
 /// and the paper's composition (Def. 4) is its sum, clamped. Class invariant: entries strictly ascending by atom, no count
 /// zero.
 ///
-/// Laws: abelian group under `+` with identity `{}`; ℤ-module under `*`. @pre of `+`, `−`, `*`: no coefficient overflows;
-/// `checked_sum` refuses instead. Sums take O(|d| + |e|).
-template <ordered_atom Atom, class Coefficient = std::int64_t>
-  requires std::regular<Coefficient> && std::totally_ordered<Coefficient>
+/// Laws: abelian group under `+` with identity `{}`; ℤ-module under `*`. @pre of `+`, `−`, `*`: no coefficient overflows
+/// (those of −e in d − e included); `checked_sum` refuses instead. Sums take O(|d| + |e|).
+template <ordered_atom Atom, integer_coefficient Coefficient = std::int64_t>
 class delta {
 public:
   using atom_type = Atom;
@@ -97,45 +103,8 @@ public:
   constexpr delta& operator+=(delta const& e) { return *this = *this + e; }
   constexpr delta& operator-=(delta const& e) { return *this = *this - e; }
 
-  /// d + e, or the least atom whose multiplicity overflows. O(|d| + |e|).
-  [[nodiscard]] friend constexpr result<delta, coefficient_overflow<Atom>> checked_sum(delta const& d, delta const& e) {
-    delta r;
-    r.entries_.reserve(d.size() + e.size());
-    auto x = d.begin();
-    auto y = e.begin();
-    while (x != d.end() && y != e.end()) {
-      if (x->atom < y->atom) {
-        r.entries_.push_back(*x++);
-      } else if (y->atom < x->atom) {
-        r.entries_.push_back(*y++);
-      } else {
-        if (!sum_fits(x->count, y->count)) return refused{coefficient_overflow<Atom>{x->atom}};
-        auto const n = static_cast<Coefficient>(x->count + y->count);
-        if (n != Coefficient{}) r.entries_.push_back({x->atom, n});
-        ++x, ++y;
-      }
-    }
-    for (; x != d.end(); ++x) r.entries_.push_back(*x);
-    for (; y != e.end(); ++y) r.entries_.push_back(*y);
-    return r;
-  }
-
-  /// ρ : delta → event, the clamp into [−1, +1]. ρ(ι(e)) = e and compose(e, f) = ρ(ι(e) + ι(f)); no homomorphism. O(|d|).
-  [[nodiscard]] friend constexpr event<Atom> clamp(delta const& d) {
-    small_vector<signed_atom<Atom>, 8> entries;
-    entries.reserve(d.size());
-    for (entry const& x : d) entries.push_back({x.atom, x.count > Coefficient{} ? sign::plus : sign::minus});
-    return event<Atom>::from_entries(std::move(entries));
-  }
-
-  /// The universal property: the only homomorphism delta → G that sends each generator x to f(x), evaluated at d.
-  ///
-  /// `G` is an abelian group written with `+` and `count * g`; `zero` is its identity. O(|d|) calls.
-  template <class G, std::invocable<Atom const&> F>
-  [[nodiscard]] friend constexpr G extend(delta const& d, F&& f, G zero) {
-    for (entry const& x : d) zero = zero + x.count * f(x.atom);
-    return zero;
-  }
+  template <ordered_atom A, integer_coefficient C>
+  friend constexpr result<delta<A, C>, coefficient_overflow<A>> checked_sum(delta<A, C> const&, delta<A, C> const&);
 
 private:
   static constexpr bool sum_fits(Coefficient const& a, Coefficient const& b) {
@@ -162,5 +131,49 @@ template <ordered_atom Atom>
 delta(event<Atom>) -> delta<Atom>;
 template <ordered_atom Atom>
 delta(atom_set<Atom>) -> delta<Atom>;
+
+/// d + e, or the least atom whose multiplicity overflows. O(|d| + |e|).
+template <ordered_atom Atom, integer_coefficient Coefficient>
+[[nodiscard]] constexpr result<delta<Atom, Coefficient>, coefficient_overflow<Atom>> checked_sum(
+    delta<Atom, Coefficient> const& d, delta<Atom, Coefficient> const& e) {
+  using group = delta<Atom, Coefficient>;
+  group r;
+  r.entries_.reserve(d.size() + e.size());
+  auto x = d.begin();
+  auto y = e.begin();
+  while (x != d.end() && y != e.end()) {
+    if (x->atom < y->atom) {
+      r.entries_.push_back(*x++);
+    } else if (y->atom < x->atom) {
+      r.entries_.push_back(*y++);
+    } else {
+      if (!group::sum_fits(x->count, y->count)) return refused{coefficient_overflow<Atom>{x->atom}};
+      auto const n = static_cast<Coefficient>(x->count + y->count);
+      if (n != Coefficient{}) r.entries_.push_back({x->atom, n});
+      ++x, ++y;
+    }
+  }
+  for (; x != d.end(); ++x) r.entries_.push_back(*x);
+  for (; y != e.end(); ++y) r.entries_.push_back(*y);
+  return r;
+}
+
+/// ρ : delta → event, the clamp into [−1, +1]. ρ(ι(e)) = e and compose(e, f) = ρ(ι(e) + ι(f)); no homomorphism. O(|d|).
+template <ordered_atom Atom, integer_coefficient Coefficient>
+[[nodiscard]] constexpr event<Atom> clamp(delta<Atom, Coefficient> const& d) {
+  small_vector<signed_atom<Atom>, 8> entries;
+  entries.reserve(d.size());
+  for (auto const& x : d) entries.push_back({x.atom, x.count > Coefficient{} ? sign::plus : sign::minus});
+  return event<Atom>::from_entries(std::move(entries));
+}
+
+/// The universal property: the only homomorphism delta → G that sends each generator x to f(x), evaluated at d.
+///
+/// `G` is an abelian group written with `+` and `count * g`; `zero` is its identity. O(|d|) calls.
+template <ordered_atom Atom, integer_coefficient Coefficient, class G, std::invocable<Atom const&> F>
+[[nodiscard]] constexpr G extend(delta<Atom, Coefficient> const& d, F&& f, G zero) {
+  for (auto const& x : d) zero = zero + x.count * f(x.atom);
+  return zero;
+}
 
 }  // namespace rota

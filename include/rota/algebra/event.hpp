@@ -96,34 +96,6 @@ public:
   /// A total order (lexicographic by entries), for keys only.
   friend constexpr auto operator<=>(event const&, event const&) = default;
 
-  /// e ∘ f of Def. 4, to the letter: at each atom the clamped sum. Brackets matter, so this is no operator. O(|e| + |f|).
-  [[nodiscard]] friend constexpr event compose(event const& e, event const& f) {
-    event r;
-    r.entries_.reserve(e.size() + f.size());
-    auto x = e.begin();
-    auto y = f.begin();
-    while (x != e.end() && y != f.end()) {
-      if (x->atom < y->atom) {
-        r.entries_.push_back(*x++);
-      } else if (y->atom < x->atom) {
-        r.entries_.push_back(*y++);
-      } else {
-        if (sign const s = clamped_sum(x->value, y->value); s != sign::zero) r.entries_.push_back({x->atom, s});
-        ++x, ++y;
-      }
-    }
-    for (; x != e.end(); ++x) r.entries_.push_back(*x);
-    for (; y != f.end(); ++y) r.entries_.push_back(*y);
-    return r;
-  }
-
-  /// (ϑ⁻, ϑ⁺): the only event that composes with e to the identity. O(|e|).
-  [[nodiscard]] friend constexpr event inverse(event const& e) {
-    event r = e;
-    for (entry& x : r.entries_) x.value = x.value == sign::plus ? sign::minus : sign::plus;
-    return r;
-  }
-
   /// The event with these entries. @pre strictly ascending by atom, no sign zero
   [[nodiscard]] static constexpr event from_entries(small_vector<entry, 8> entries) {
     for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -150,5 +122,35 @@ private:
 
   small_vector<entry, 8> entries_;
 };
+
+/// e ∘ f of Def. 4, to the letter: at each atom the clamped sum. Brackets matter, so this is no operator. O(|e| + |f|).
+template <ordered_atom Atom>
+[[nodiscard]] constexpr event<Atom> compose(event<Atom> const& e, event<Atom> const& f) {
+  small_vector<signed_atom<Atom>, 8> entries;
+  entries.reserve(e.size() + f.size());
+  auto x = e.begin();
+  auto y = f.begin();
+  while (x != e.end() && y != f.end()) {
+    if (x->atom < y->atom) {
+      entries.push_back(*x++);
+    } else if (y->atom < x->atom) {
+      entries.push_back(*y++);
+    } else {
+      if (sign const s = clamped_sum(x->value, y->value); s != sign::zero) entries.push_back({x->atom, s});
+      ++x, ++y;
+    }
+  }
+  for (; x != e.end(); ++x) entries.push_back(*x);
+  for (; y != f.end(); ++y) entries.push_back(*y);
+  return event<Atom>::from_entries(std::move(entries));
+}
+
+/// (ϑ⁻, ϑ⁺): the only event that composes with e to the identity. O(|e|).
+template <ordered_atom Atom>
+[[nodiscard]] constexpr event<Atom> inverse(event<Atom> const& e) {
+  small_vector<signed_atom<Atom>, 8> entries(e.begin(), e.end());
+  for (auto& x : entries) x.value = x.value == sign::plus ? sign::minus : sign::plus;
+  return event<Atom>::from_entries(std::move(entries));
+}
 
 }  // namespace rota
