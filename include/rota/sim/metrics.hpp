@@ -1,0 +1,189 @@
+#pragma once
+
+#include <rota/sim/simulation.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace rota::sim {
+
+/// Lengths of episodes, exact to 0.1 ms.
+///
+/// Memory: as disjoint intervals within a time T have at most √(2T) different lengths, an hour needs at most 8,486 entries.
+class length_statistics {
+public:
+  void add(duration d) {
+    ++counts_[d.ns / unit];
+    ++total_;
+  }
+  [[nodiscard]] std::uint64_t count() const noexcept { return total_; }
+  /// The least length that at least `percent` of all do not exceed, in ms; 0 if there are none.
+  [[nodiscard]] double percentile_ms(std::uint64_t percent) const {
+    std::uint64_t const rank = (total_ * percent + 99) / 100;
+    std::uint64_t seen = 0;
+    for (auto const& [length, times] : counts_)
+      if ((seen += times) >= rank) return in_ms(length);
+    return 0;
+  }
+  [[nodiscard]] double longest_ms() const { return counts_.empty() ? 0 : in_ms(counts_.rbegin()->first); }
+
+private:
+  static constexpr std::int64_t unit = 100'000;
+  static double in_ms(std::int64_t tenths) { return static_cast<double>(tenths) / 10; }
+
+  std::map<std::int64_t, std::uint64_t> counts_;
+  std::uint64_t total_ = 0;
+};
+
+/// What came out of one run. See `metrics` for what each number means.
+struct figures {
+  duration measured{};
+  duration in_conflict{};
+  length_statistics episodes;
+  std::uint64_t cycles = 0;
+  std::uint64_t detections = 0;
+  std::uint64_t reigns = 0;
+  std::uint64_t right = 0;
+  std::vector<std::uint64_t> led;  ///< reigns per robot
+  std::uint64_t deliberations = 0;
+  std::uint64_t messages = 0;  ///< broadcasts
+  std::uint64_t perception_digest = 0;
+
+  [[nodiscard]] double conflict_share() const {
+    return measured.ns == 0 ? 0 : static_cast<double>(in_conflict.ns) / static_cast<double>(measured.ns);
+  }
+  [[nodiscard]] double right_share() const {
+    return reigns == 0 ? 0 : static_cast<double>(right) / static_cast<double>(reigns);
+  }
+  /// No episode was longer than 4 s.
+  [[nodiscard]] bool resolved() const { return episodes.longest_ms() <= 4000; }
+};
+
+/// Counts while a simulation runs, from `begin` on.
+///
+/// * in conflict: some two robots believe in different allocations (Def. 2, either direction), to the nanosecond; what
+///   happens at one instant is judged when all of it has happened.
+/// * episode: from the beginning of a conflict to the beginning of the first agreement that then lasts `calm`. At `begin`
+///   and at the end of the run it is cut off; the agreement that an episode ends with there may be shorter.
+/// * reign: of a robot that leads, from a beginning within the measured time, unless it obeys a greater claim within
+///   `calm` (of several claims made at once only the greatest is a reign), or the run ends before it deliberates.
+/// * right: at its first deliberation as a leader, the attackers it imposes are those of the best allocation under the
+///   true world.
+template <class Simulation>
+class metrics {
+public:
+  static constexpr duration calm = milliseconds(300);
+
+  metrics(Simulation const& simulation, instant begin)
+      : simulation_(simulation), begin_(begin), beliefs_(simulation.size()), reigns_(simulation.size()) {
+    figures_.led.resize(simulation.size());
+  }
+
+  void operator()(log_record const& r) {
+    pass_to(r.time);
+    if (!r.change.empty() || r.what == happening::entered) {
+      beliefs_[r.robot] = r.believed;
+      stale_ = true;
+    }
+    if (r.time < begin_) return;
+    figures_.cycles += r.cycles;
+    figures_.detections += r.detected ? 1 : 0;
+    reign& mine = reigns_[r.robot];
+    switch (r.what) {
+    case happening::deliberated:
+      ++figures_.deliberations;
+      if (r.leading && mine.began && !mine.right) mine.right = imposes_right(r);
+      break;
+    case happening::said_plan:
+    case happening::said_claim: ++figures_.messages; break;
+    case happening::reign_began: mine = {r.time, std::nullopt}; break;
+    case happening::reign_ended:
+      if (mine.began && !(r.superseded && r.time - *mine.began < calm)) count(r.robot);
+      mine = {};
+      break;
+    case happening::entered:
+    case happening::heard_plan:
+    case happening::heard_claim: break;
+    }
+  }
+
+  /// Closes what is open. To be called once, after the last `run`.
+  [[nodiscard]] figures finish(instant end) {
+    pass_to(end);
+    if (episode_) figures_.episodes.add((conflict_ ? end : agreed_) - *episode_);
+    for (std::size_t i = 0; i < reigns_.size(); ++i) count(i);
+    figures_.measured = end - begin_;
+    figures_.perception_digest = simulation_.perception_digest();
+    return figures_;
+  }
+
+private:
+  struct reign {
+    std::optional<instant> began;
+    std::optional<bool> right;
+  };
+
+  /// Everything before t has happened: accounts for the time up to t.
+  void pass_to(instant t) {
+    if (t <= now_) return;
+    if (stale_) {
+      stale_ = false;
+      bool const conflict = std::adjacent_find(beliefs_.begin(), beliefs_.end(), std::not_equal_to<>()) != beliefs_.end();
+      if (conflict != conflict_) turn(conflict, now_);
+    }
+    if (now_ < begin_ && begin_ <= t && conflict_) episode_ = begin_;
+    if (conflict_) figures_.in_conflict = figures_.in_conflict + std::max(t - std::max(now_, begin_), duration{});
+    now_ = t;
+  }
+
+  void turn(bool conflict, instant t) {
+    conflict_ = conflict;
+    if (!conflict) {
+      agreed_ = t;
+    } else if (t >= begin_) {
+      if (episode_ && t - agreed_ >= calm) figures_.episodes.add(agreed_ - *std::exchange(episode_, std::nullopt));
+      if (!episode_) episode_ = t;
+    }
+  }
+
+  void count(std::size_t robot) {
+    reign const& mine = reigns_[robot];
+    if (!mine.right) return;
+    ++figures_.reigns;
+    ++figures_.led[robot];
+    figures_.right += *mine.right ? 1 : 0;
+  }
+
+  [[nodiscard]] bool imposes_right(log_record const& r) {
+    know(r.truth, truth_);
+    auto const& book = simulation_.book();
+    auto const best = best_allocation(problem<names, perceived>(book.type, simulation_.members(), truth_), space_);
+    return best && attackers(r.believed) == attackers(best->atoms);
+  }
+  [[nodiscard]] small_vector<names::agent, 8> attackers(allocation_atoms<names> const& atoms) const {
+    small_vector<names::agent, 8> who;
+    for (in<names> const& x : atoms)
+      if (simulation_.book().attacks(x)) who.push_back(x.agent);
+    return who;
+  }
+
+  Simulation const& simulation_;
+  instant begin_;
+  instant now_{};
+  std::vector<allocation_atoms<names>> beliefs_;
+  bool stale_ = false;
+  bool conflict_ = false;
+  std::optional<instant> episode_;
+  instant agreed_{};
+  std::vector<reign> reigns_;
+  figures figures_;
+  perceived truth_;
+  workspace space_;
+};
+
+}  // namespace rota::sim

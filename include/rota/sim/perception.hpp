@@ -1,0 +1,83 @@
+#pragma once
+
+#include <rota/sim/random.hpp>
+#include <rota/sim/world.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rota::sim {
+
+/// How robots see. The numbers are those of an omnidirectional camera with an imperfect distance calibration.
+struct sensor_options {
+  micrometres exact_distance = metres(3);  ///< shorter distances to the ball are underestimated, longer ones overestimated,
+  std::int64_t bias_permille = 400;        ///< by less than this
+  micrometres ball_noise = metres(0.01);   ///< standard deviation of the seen ball in x and y, at distance 0
+  std::int64_t ball_noise_permille = 20;   ///< added to it, of the distance
+  micrometres mate_noise = metres(0.03);   ///< of a team mate's reported place, in x and y
+};
+
+/// The distance at which a ball `d` away is seen: g(d) = d + bias · d · (d − d₀) / (d + d₀). @pre 0 ≤ d ≤ 60 m
+[[nodiscard]] constexpr micrometres seen_distance(sensor_options const& s, micrometres d) noexcept {
+  micrometres const d0 = s.exact_distance;
+  return d + d * (d - d0) / (d + d0) * s.bias_permille / 1000;
+}
+
+/// What one robot believes when it deliberates: the belief base F of the plan's utilities.
+struct perceived {
+  point ball;
+  std::vector<point> robots;  ///< index 0 is the robot with id 1
+};
+
+/// What a robot would believe that knows everything.
+inline void know(world_state const& truth, perceived& into) {
+  into.ball = truth.ball;
+  into.robots.clear();
+  for (robot_state const& r : truth.robots) into.robots.push_back(r.position);
+}
+
+/// The eyes of one robot, with its own random stream.
+class sensor {
+public:
+  sensor(sensor_options const& options, std::size_t self, std::uint64_t seed)
+      : options_(options), self_(self), engine_(engine_for(seed, stream::perception, self)) {}
+
+  /// Sees the ball relative to itself, so that a wrong pose displaces it; hears from its mates where they believe to be.
+  /// Draws equally often whatever it sees. O(robots).
+  void look(world_state const& truth, perceived& into) {
+    robot_state const& me = truth.robots[self_];
+    point const self = me.position + me.pose_error;
+    point const sight = me.phantom.value_or(truth.ball) - me.position;
+    micrometres const d = length(sight);
+    micrometres const spread = options_.ball_noise + d * options_.ball_noise_permille / 1000;
+    point const seen = d == 0 ? sight : rescaled(sight, seen_distance(options_, d), d);
+    into.ball = self + seen + wobble(spread);
+    into.robots.resize(truth.robots.size());
+    for (std::size_t i = 0; i < truth.robots.size(); ++i) {
+      robot_state const& r = truth.robots[i];
+      into.robots[i] = i == self_ ? self : r.position + r.pose_error + wobble(options_.mate_noise);
+      note(into.robots[i]);
+    }
+    note(into.ball);
+  }
+
+  /// A digest of everything seen so far: equal digests, equal streams.
+  [[nodiscard]] std::uint64_t digest() const noexcept { return digest_; }
+
+private:
+  point wobble(micrometres sigma) {
+    micrometres const x = noise(engine_, sigma);
+    return {x, noise(engine_, sigma)};
+  }
+  void note(point p) noexcept {
+    digest_ = scatter(digest_ ^ static_cast<std::uint64_t>(p.x)) ^ static_cast<std::uint64_t>(p.y);
+  }
+
+  sensor_options options_;
+  std::size_t self_;
+  random_engine engine_;
+  std::uint64_t digest_ = 0;
+};
+
+}  // namespace rota::sim

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <rota/core/time.hpp>
+#include <rota/sim/geometry.hpp>
+
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace rota::sim {
+
+/// What is true of one robot, and what deceives it.
+struct robot_state {
+  point position;
+  point pose_error;              ///< how far off it believes itself to be, and says so to the others
+  std::optional<point> phantom;  ///< where it sees a ball that is none, instead of the true one
+};
+
+/// What is true.
+struct world_state {
+  point ball;
+  std::vector<robot_state> robots;
+};
+
+/// A world runs by itself: nothing the robots decide changes it. So runs with and without conflict resolution see the
+/// same, bit for bit.
+template <class W>
+concept world = std::copyable<W> && requires(W w, W const& c, instant t) {
+  w.advance(t);  // to simulated time t, never backwards
+  { c.state() } -> std::same_as<world_state const&>;
+};
+
+/// Where a team of up to eleven lines up: own half to the left.
+[[nodiscard]] inline point formation_spot(std::size_t robot) {
+  constexpr point spots[] = {{metres(-7), metres(0)},   {metres(-3), metres(2.5)},  {metres(-3), metres(-2.5)},
+                             {metres(2.5), metres(3.5)}, {metres(2.5), metres(-3.5)}, {metres(0), metres(0)},
+                             {metres(-5), metres(4)},   {metres(-5), metres(-4)},   {metres(6), metres(1.5)},
+                             {metres(6), metres(-1.5)}, {metres(-1), metres(5)}};
+  constexpr std::size_t count = sizeof spots / sizeof *spots;
+  ROTA_ASSERT(robot < count);
+  return spots[robot];
+}
+inline constexpr std::size_t max_robots = 11;
+
+/// Two robots and a still ball. Until `begin` one is near it and both agree; from then on both are equally close, on
+/// opposite sides, and each sees itself as the closer one.
+class duel_world {
+public:
+  explicit duel_world(instant begin) : begin_(begin) {
+    state_.robots = {{{-gap, 0}, {}, {}}, {{metres(6), 0}, {}, {}}};
+  }
+  void advance(instant t) {
+    if (t >= begin_) state_.robots[1].position = {gap, 0};
+  }
+  [[nodiscard]] world_state const& state() const noexcept { return state_; }
+
+private:
+  static constexpr micrometres gap = metres(0.6);
+  instant begin_;
+  world_state state_;
+};
+
+}  // namespace rota::sim
