@@ -36,10 +36,12 @@ struct fixed_utility {
 
 /// The fixed-point value nearest to u, halves away from zero, whatever the rounding mode; or why there is none.
 [[nodiscard]] constexpr result<fixed_utility, utility_fault> quantise(double u) noexcept {
-  if (u != u) return refused{utility_fault::not_a_number};
-  if (u > std::numeric_limits<double>::max()) return refused{utility_fault::positive_infinity};
-  if (u < std::numeric_limits<double>::lowest()) return refused{utility_fault::negative_infinity};
-  if (u > max_utility || u < -max_utility) return refused{utility_fault::out_of_range};
+  if (!(u >= -max_utility && u <= max_utility)) {
+    if (u != u) return refused{utility_fault::not_a_number};
+    if (u > std::numeric_limits<double>::max()) return refused{utility_fault::positive_infinity};
+    if (u < std::numeric_limits<double>::lowest()) return refused{utility_fault::negative_infinity};
+    return refused{utility_fault::out_of_range};
+  }
   double const scaled = u * fixed_utility::units_per_one;  // exact: a power of two
   auto units = static_cast<std::int64_t>(scaled);
   double const rest = scaled - static_cast<double>(units);

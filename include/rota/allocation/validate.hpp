@@ -87,10 +87,17 @@ private:
 
 namespace detail {
 
+/// What is wrong with one atom by itself; the bits are clauses.
 template <vocabulary V, class Beliefs>
-[[nodiscard]] bool takes_part(problem<V, Beliefs> const& problem, typename V::agent a) {
-  return std::binary_search(problem.participants.begin(), problem.participants.end(), a) &&
-         problem.members.contains(a);
+[[nodiscard]] unsigned faults_of(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, in<V> const& x) {
+  auto bit = [](clause c) { return 1u << static_cast<unsigned>(c); };
+  if (x.plan != p.id()) return bit(clause::one_plan);
+  bool const foreign = p.find(x.task) == nullptr;
+  auto const* r = problem.members.role_of(x.agent);
+  bool const here =
+      r != nullptr && std::binary_search(problem.participants.begin(), problem.participants.end(), x.agent);
+  return (foreign ? bit(clause::foreign_task) : 0u) | (here ? 0u : bit(clause::stranger)) |
+         (r != nullptr && !foreign && !r->permits(x.task) ? bit(clause::role) : 0u);
 }
 
 /// A violation made of one atom.
@@ -155,32 +162,31 @@ void judge_team(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, s
   }
 }
 
-/// Clauses (5) and (6) on the atoms that the user's functions may be asked about.
+/// Clauses (5) and (6) on the atoms that the user's functions may be asked about; U_p where it is defined.
 template <vocabulary V, class Beliefs, class Sink>
-void judge_functions(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, std::span<in<V> const> atoms,
-                     plan_phase phase, Sink& sink) {
-  violation<V> v;
-  v.plan = p.id();
+std::optional<fixed_utility> judge_functions(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
+                                             std::span<in<V> const> atoms, plan_phase phase, Sink& sink) {
+  auto report = [&](clause c, utility_fault fault, double value) {
+    violation<V> v;
+    v.what = c;
+    v.plan = p.id();
+    v.fault = fault;
+    v.value = value;
+    sink(v);
+  };
   if (p.precondition() && !(phase == plan_phase::running && p.scope() == precondition_scope::entry_only)) {
     auto const holds = guarded([&] { return p.precondition()(problem.beliefs, atoms); });
-    if (!holds || !*holds) {
-      v.what = clause::precondition;
-      v.fault = holds ? utility_fault::none : utility_fault::threw;
-      sink(v);
-    }
+    if (!holds || !*holds) report(clause::precondition, holds ? utility_fault::none : utility_fault::threw, 0);
   }
-  v.what = clause::utility;
-  auto judge_total = [&](fixed_utility total) {
-    if (total.units >= 0) return;
-    v.fault = utility_fault::negative;
-    v.value = to_double(total);
-    sink(v);
+  auto judged = [&](fixed_utility total) {
+    if (total.units < 0) report(clause::utility, utility_fault::negative, to_double(total));
+    return std::optional{total};
   };
   if (auto const* general = std::get_if<general_utility<V, Beliefs>>(&p.utility())) {
     auto const value = value_of<V, Beliefs>(*general, problem.beliefs, atoms);
-    if (value) return judge_total(value.value());
-    v.fault = value.error();
-    return sink(v);
+    if (value) return judged(value.value());
+    report(clause::utility, value.error(), 0);
+    return std::nullopt;
   }
   auto const& additive = *std::get_if<additive_utility<V, Beliefs>>(&p.utility());
   fixed_utility total;
@@ -195,29 +201,22 @@ void judge_functions(problem<V, Beliefs> const& problem, plan<V, Beliefs> const&
     w.fault = fault;
     sink(w);
   }
-  if (defined) judge_total(total);
+  if (!defined) return std::nullopt;
+  return judged(total);
 }
 
 /// Every clause of section 3 on C relative to p but (4) on states. `sink` takes each violation.
+///
+/// @return U_p where it is defined, whatever else is violated
 template <vocabulary V, class Beliefs, class Sink>
-void judge(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, std::span<in<V> const> atoms,
-           plan_phase phase, Sink&& sink) {
-  bool askable = true;
-  auto report = [&](clause c, in<V> const& x) {
-    askable &= c == clause::role;
-    sink(at<V>(c, p.id(), x));
-  };
-  for (in<V> const& x : atoms)
-    if (x.plan != p.id()) report(clause::one_plan, x);
-  for (in<V> const& x : atoms)
-    if (x.plan == p.id() && p.find(x.task) == nullptr) report(clause::foreign_task, x);
-  for (in<V> const& x : atoms)
-    if (x.plan == p.id() && !takes_part(problem, x.agent)) report(clause::stranger, x);
-  for (in<V> const& x : atoms) {
-    if (x.plan != p.id() || p.find(x.task) == nullptr) continue;
-    auto const* r = problem.members.role_of(x.agent);
-    if (r != nullptr && !r->permits(x.task)) report(clause::role, x);
-  }
+std::optional<fixed_utility> judge(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
+                                   std::span<in<V> const> atoms, plan_phase phase, Sink&& sink) {
+  unsigned faults = 0;
+  for (in<V> const& x : atoms) faults |= faults_of(problem, p, x);
+  for (clause const c : {clause::one_plan, clause::foreign_task, clause::stranger, clause::role})
+    if ((faults >> static_cast<unsigned>(c) & 1u) != 0)
+      for (in<V> const& x : atoms)
+        if ((faults_of(problem, p, x) >> static_cast<unsigned>(c) & 1u) != 0) sink(at<V>(c, p.id(), x));
   judge_counts(p, atoms, sink);
   in<V> const* last = nullptr;
   for (in<V> const& x : atoms) {
@@ -229,15 +228,18 @@ void judge(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, std::s
     }
     last = &x;
   }
-  if (askable) {
-    judge_functions(problem, p, atoms, phase, sink);
+  auto askable = [](unsigned f) { return (f & ~(1u << static_cast<unsigned>(clause::role))) == 0; };
+  std::optional<fixed_utility> total;
+  if (askable(faults)) {
+    total = judge_functions(problem, p, atoms, phase, sink);
   } else {
     small_vector<in<V>, 8> known;
     for (in<V> const& x : atoms)
-      if (x.plan == p.id() && p.find(x.task) != nullptr && takes_part(problem, x.agent)) known.push_back(x);
-    judge_functions(problem, p, {known.data(), known.size()}, phase, sink);
+      if (askable(faults_of(problem, p, x))) known.push_back(x);
+    total = judge_functions<V, Beliefs>(problem, p, {known.data(), known.size()}, phase, sink);
   }
   judge_team(problem, p, atoms, sink);
+  return total;
 }
 
 }  // namespace detail

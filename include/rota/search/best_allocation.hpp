@@ -16,9 +16,9 @@ namespace rota {
 /// occurs there is not asked for its precondition if that is `precondition_scope::entry_only`.
 /// A pair or total whose utility is no number makes the allocations that need it invalid; see `solution::ignored`.
 ///
-/// Errors: one `plan_refusal` per plan. Additive utilities: at most 2^61 units for n·max|u| (2048 agents at
+/// Errors: one `plan_refusal` per plan. Additive utilities: n·max|u| is at most 2^39 (512 agents at
 /// `max_utility`), otherwise `utility_refused`.
-/// Complexity, n agents and t tasks, per plan: additive O(n·(t³ + n·t)); otherwise tree search within `budget`, which
+/// Complexity, n agents and t tasks, per plan: additive O(n·t + E·t·(t + n)), E ≤ n + t; otherwise tree search within `budget`, which
 /// the plans share equally, what one leaves going to the next. Memory O(n·t + t²), in the workspace; nothing else is
 /// allocated for up to 8 agents and 2 refused plans.
 template <vocabulary V, class Beliefs>

@@ -19,7 +19,7 @@ inline constexpr slot no_slot = std::numeric_limits<slot>::max();
 inline constexpr std::int64_t absent = std::numeric_limits<std::int64_t>::min();
 
 /// The greatest n·max|u| the solvers accept; keeps every sum and difference of sums inside 64 bits.
-inline constexpr std::int64_t max_total = std::int64_t{1} << 61;
+inline constexpr std::int64_t max_total = std::int64_t{1} << 59;
 
 /// How many agents a slot must and can take, both ends included.
 struct slot_bounds {

@@ -51,11 +51,8 @@ template <vocabulary V, class Beliefs>
 [[nodiscard]] std::optional<fixed_utility> worth(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
                                                  allocation_atoms<V> const& atoms, plan_phase phase) {
   bool valid = true;
-  judge(problem, p, atoms.atoms(), phase, [&](violation<V> const&) { valid = false; });
-  if (!valid) return std::nullopt;
-  auto const value = evaluate(problem, p, atoms);
-  if (!value) return std::nullopt;
-  return value.value();
+  auto const value = judge(problem, p, atoms.atoms(), phase, [&](violation<V> const&) { valid = false; });
+  return valid ? value : std::nullopt;
 }
 
 template <vocabulary V, class Beliefs>
