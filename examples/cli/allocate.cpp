@@ -1,0 +1,267 @@
+#include "command.hpp"
+#include "target.hpp"
+#include "text.hpp"
+
+#include <rota/algebra/action.hpp>
+#include <rota/allocation/validate.hpp>
+#include <rota/search/best_allocation.hpp>
+#include <rota/search/reallocate.hpp>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <memory>
+
+namespace rota::cli {
+namespace {
+
+using nlohmann::ordered_json;
+using atom = in<vocabulary>;
+
+struct options {
+  std::vector<std::string> plans;
+  std::string plan_type;
+  std::string utilities;
+  std::string current;
+  bool no_idle = false;
+  bool json = false;
+};
+
+/// Everything a report needs. Views what it is made from.
+struct question {
+  target const& where;
+  roster const& who;
+  utilities const& worth;
+  rota::plan_type<vocabulary> const& type;
+  rota::problem<vocabulary, no_beliefs> const& problem;
+  allocation_atoms<vocabulary> current;
+  bool has_current = false;
+  std::vector<std::string> departed;
+
+  [[nodiscard]] std::string task(atom const& x) const { return where.name(where.plan(x.plan), x.task); }
+};
+
+rota::plan_type<vocabulary> build_type(target const& t, roster const& who, utilities const& worth) {
+  auto const factory = [&](alica::plan const& p) -> additive_utility<vocabulary, no_beliefs> {
+    return [&who, &worth, id = vocabulary::plan{p.id}](vocabulary::agent a, vocabulary::task task, no_beliefs const&) {
+      return worth(who.name(a), id, task);
+    };
+  };
+  auto made = t.type != nullptr ? alica::to_plan_type(t.model, *t.type, factory)
+                                : alica::to_plan_type(*t.plans.front(), factory);
+  if (!made) throw input_error("plan " + std::to_string(made.error().plan), "", made.error().reason);
+  return *std::move(made);
+}
+
+allocation_atoms<vocabulary> atoms_of(named_allocation const& a, target const& t, roster const& who,
+                                      std::string const& file) {
+  allocation_atoms<vocabulary> out;
+  if (!a.plan) return out;
+  auto const at = std::find_if(t.plans.begin(), t.plans.end(), [&](auto const* p) { return t.name(*p) == *a.plan; });
+  if (at == t.plans.end()) throw input_error(file, "/plan", "there is no plan \"" + *a.plan + '"');
+  for (auto const& pair : a.assignment) {
+    auto const task = t.find_task(**at, pair.task);
+    if (!task) throw input_error(file, pair.place + "/task", "the plan has no task \"" + pair.task + '"');
+    out.insert({who.id(pair.agent), {(*at)->id}, *task});
+  }
+  return out;
+}
+
+std::string explain(plan_refusal<vocabulary> const& r, question const& q) {
+  auto const& p = q.where.plan(r.plan);
+  auto const task = [&] { return q.where.name(p, r.task); };
+  auto const agents = [](std::size_t n) { return counted(n, "agent"); };
+  auto const why = [&]() -> std::string {
+    switch (r.why) {
+    case no_plan_reason::contradictory_cardinalities:
+      return "its tasks sum to " + agents(r.count) + ", which its team size " + interval(r.bounds) + " never admits";
+    case no_plan_reason::too_few_agents:
+      return "it needs at least " + agents(r.bounds.min()) + ", and there are " + std::to_string(r.count);
+    case no_plan_reason::too_many_agents:
+      return "nobody may idle, there are " + agents(r.count) + ", and it has room for " +
+             std::to_string(r.bounds.max());
+    case no_plan_reason::task_short:
+      return agents(r.count) + " can take on " + task() + ", which needs " + interval(r.bounds);
+    case no_plan_reason::agent_without_task: return q.who.name(r.agent) + " can take on no task and may not idle";
+    case no_plan_reason::pairs_contradict:
+      return "each task and each agent could be served alone, but not all together" +
+             (r.task != vocabulary::task{}     ? ": left over is " + task()
+              : r.agent != vocabulary::agent{} ? ": left over is " + q.who.name(r.agent)
+                                               : std::string());
+    case no_plan_reason::utility_refused: return "the utilities are too large to be summed exactly";
+    case no_plan_reason::precondition_never_holds: return "its precondition never holds";
+    case no_plan_reason::precondition_threw: return "its precondition failed";
+    case no_plan_reason::negative_utility: return "its utility is at most " + number(r.value) + ", below 0";
+    case no_plan_reason::search_incomplete: return "the search ended before it found one";
+    }
+    return "";
+  }();
+  return q.where.name(p) + ": " + why;
+}
+
+/// The utility in full precision: the solver counts in steps of 2^-20.
+double exact_utility(question const& q, allocation_atoms<vocabulary> const& atoms) {
+  double sum = 0;
+  for (atom const& x : atoms) sum += q.worth(q.who.name(x.agent), x.plan, x.task).value_or(0);
+  return sum;
+}
+
+std::vector<std::string> idle_agents(question const& q, allocation_atoms<vocabulary> const& atoms) {
+  std::vector<std::string> idle;
+  for (auto const a : q.problem.participants)
+    if (part_of(atoms, a).empty()) idle.push_back(q.who.name(a));
+  return idle;
+}
+
+ordered_json event_json(question const& q, event<atom> const& e) {
+  auto const list = [&](sign s) {
+    auto out = ordered_json::array();
+    for (auto const& x : e) {
+      if (x.value != s) continue;
+      ordered_json entry = {{"agent", q.who.name(x.atom.agent)}};
+      if (q.where.type != nullptr) entry["plan"] = q.where.name(q.where.plan(x.atom.plan));
+      entry["task"] = q.task(x.atom);
+      out.push_back(std::move(entry));
+    }
+    return out;
+  };
+  return {{"added", list(sign::plus)}, {"removed", list(sign::minus)}};
+}
+
+std::string as_json(question const& q, solution<vocabulary> const& s) {
+  ordered_json out;
+  out["plan"] = q.where.name(q.where.plan(s.plan));
+  out["utility"] = exact_utility(q, s.atoms);
+  out["optimal"] = s.optimal;
+  out["assignment"] = ordered_json::array();
+  for (atom const& x : s.atoms) out["assignment"].push_back({{"agent", q.who.name(x.agent)}, {"task", q.task(x)}});
+  out["idle"] = idle_agents(q, s.atoms);
+  // Without an allocation to compare with, nothing is added or removed.
+  out["event"] = event_json(q, q.has_current ? difference(q.current, s.atoms) : event<atom>{});
+  return out.dump() + '\n';
+}
+
+std::string clauses(question const& q, solution<vocabulary> const& s) {
+  auto const& p = *q.type.find(s.plan);
+  auto const& file = q.where.plan(s.plan);
+  std::string counts;
+  for (auto const& t : p.tasks()) {
+    auto const n = std::count_if(s.atoms.begin(), s.atoms.end(), [&](atom const& x) { return x.task == t.task; });
+    counts += (counts.empty() ? "" : ", ") + q.where.name(file, t.task) + ' ' + std::to_string(n) + " in " +
+              interval(t.bounds);
+  }
+  auto const idle = idle_agents(q, s.atoms).size();
+  std::string out;
+  auto const line = [&](std::string const& head, std::string const& why) {
+    out += "  " + padded(head, 18) + printable(why) + '\n';
+  };
+  line("(0) one plan", "every task is one of " + q.where.name(file));
+  line("(1)-(3) counts", counts);
+  line("(4) one task", "no agent has two tasks");
+  line("(5) precondition", !file.precondition           ? "the plan has none"
+                           : file.precondition->empty() ? "taken to hold: the file does not spell it out"
+                                                        : "taken to hold, not evaluated: " + *file.precondition);
+  line("(6) utility", number(exact_utility(q, s.atoms)) + " is at least 0, and no pair is forbidden");
+  line("team size", std::to_string(s.atoms.size()) + " in " + interval(p.team_size()));
+  line("idle", std::to_string(idle) + (q.problem.idle == idling::allowed ? ", and idling is allowed" : " as demanded"));
+  return out;
+}
+
+std::string advice(question const& q, workspace& work) {
+  auto const r = reallocate(q.problem, q.current, hysteresis{}, work);
+  auto const gain = r.gain ? " (gain " + number(*r.gain) + ')' : std::string();
+  switch (r.reason) {
+  case reallocation_reason::first: return "a team without an allocation adopts it";
+  case reallocation_reason::adopted_better: return "a running team adopts it" + gain;
+  case reallocation_reason::current_invalid: return "a running team adopts it: the current allocation is not valid";
+  case reallocation_reason::kept_optimal: return "a running team keeps what it has: nothing is better";
+  case reallocation_reason::kept_hysteresis: return "a running team keeps what it has: within the hysteresis" + gain;
+  case reallocation_reason::kept_unproved:
+  case reallocation_reason::no_valid_allocation:
+  case reallocation_reason::search_incomplete: break;
+  }
+  return "the search did not end";
+}
+
+std::string as_text(question const& q, solution<vocabulary> const& s, std::string const& current_file,
+                    workspace& work) {
+  auto const& p = q.where.plan(s.plan);
+  std::string out;
+  auto const line = [&](std::string const& text) { out += printable(text) + '\n'; };
+  line("plan     " + q.where.name(p) + " (" + std::to_string(p.id) + ")" +
+       (q.where.type != nullptr ? ", best of " + counted(q.where.plans.size(), "plan") + " of " + q.where.type->name
+                                : ""));
+  line("utility  " + number(exact_utility(q, s.atoms)) + (s.optimal ? ", proved optimal" : ", not proved optimal"));
+  if (s.runner_up)
+    line("next     " + q.where.name(q.where.plan(s.runner_up->plan)) + " with " + number(s.runner_up->utility));
+  line("assignment");
+  std::size_t width = 0;
+  for (auto const a : q.problem.participants) width = std::max(width, q.who.name(a).size());
+  for (atom const& x : s.atoms)
+    line("  " + padded(q.who.name(x.agent), width) + "  " + q.task(x) + "  " +
+         number(q.worth(q.who.name(x.agent), x.plan, x.task).value_or(0)));
+  for (auto const& name : idle_agents(q, s.atoms)) line("  " + padded(name, width) + "  (idle)");
+  out += "valid, because\n" + clauses(q, s);
+  if (!q.has_current) return out;
+  line("event against " + current_file);
+  auto const e = difference(q.current, s.atoms);
+  if (e.empty()) line("  none: it is the same allocation");
+  for (auto const& x : e)
+    line(std::string("  ") + (x.value == sign::plus ? "+ " : "- ") + q.who.name(x.atom.agent) + "  " +
+         (q.where.type != nullptr ? q.where.name(q.where.plan(x.atom.plan)) + '/' : "") + q.task(x.atom));
+  for (auto const& name : q.departed) line("  " + name + " is not in the table: it left");
+  line("  " + advice(q, work));
+  return out;
+}
+
+outcome run_allocate(options const& o) {
+  auto const where = find_target(o.plans, o.plan_type);
+  utilities const worth{read_utilities(o.utilities), *where, o.utilities};
+  named_allocation old;
+  if (!o.current.empty()) old = read_allocation(o.current);
+  std::vector<std::string> departed;
+  for (auto const& pair : old.assignment)
+    if (!std::binary_search(worth.agents().begin(), worth.agents().end(), pair.agent)) departed.push_back(pair.agent);
+  roster const who{worth.agents(), departed};
+
+  auto const type = build_type(*where, who, worth);
+  team<vocabulary> members;
+  for (auto const a : who.present()) members.add(a);
+  no_beliefs const beliefs;
+  problem<vocabulary, no_beliefs> const p{type, members, beliefs, o.no_idle ? idling::forbidden : idling::allowed};
+  question const q{*where, who, worth, type, p, atoms_of(old, *where, who, o.current), !o.current.empty(), departed};
+
+  workspace work;
+  auto const best = best_allocation(p, work);
+  if (!best) {
+    std::string reason;
+    for (auto const& r : best.error().plans) reason += (reason.empty() ? "" : "; ") + explain(r, q);
+    if (o.json) return {ordered_json{{"plan", nullptr}, {"reason", reason}}.dump() + '\n', negative};
+    return {"no valid allocation: " + printable(reason) + '\n', negative};
+  }
+  if (!validate(p, *type.find(best->plan), best->atoms))
+    throw std::logic_error("the allocation found is not valid: please report this");
+  return {o.json ? as_json(q, *best) : as_text(q, *best, o.current, work), success};
+}
+
+}  // namespace
+
+void add_allocate(CLI::App& program, chosen_command& chosen) {
+  auto const o = std::make_shared<options>();
+  auto* const command = program.add_subcommand("allocate", "Finds the best allocation of a plan, and says why");
+  command->add_option("--plan", o->plans, "plan files or folders; what they need is found beside them")->required();
+  command->add_option("--plan-type", o->plan_type, "name or id of the plan type whose best plan is wanted");
+  command
+      ->add_option("--utilities", o->utilities,
+                   "CSV: header agent,TASK,... (PLAN/TASK with a plan type), one row per agent, empty = forbidden")
+      ->required();
+  command->add_flag("--no-idle", o->no_idle, "every agent must have a task");
+  command->add_option("--current", o->current, "JSON, as --json prints it: the allocation to compare with");
+  command->add_flag("--json", o->json, "print JSON");
+  command->footer("Utilities add up over agents; an idle agent counts 0; they are compared in steps of 2^-20.\n"
+                  "Exit status: 0 found, 1 no valid allocation, 2 misuse or a wrong input file.");
+  command->callback([o, &chosen] { chosen = [o] { return run_allocate(*o); }; });
+}
+
+}  // namespace rota::cli

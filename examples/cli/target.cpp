@@ -1,0 +1,177 @@
+#include "target.hpp"
+
+#include "command.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string_view>
+
+namespace rota::cli {
+namespace {
+
+std::string in_quotes(std::string_view s) { return '"' + std::string(s) + '"'; }
+
+/// Says why there is nothing to allocate for: the first error of the files, if they have one, else what is missing.
+[[noreturn]] void give_up(alica::model const& m, std::string const& files, std::string const& missing) {
+  auto const errors = m.count(alica::severity::error);
+  for (alica::diagnostic const& d : m.diagnostics) {
+    if (d.severity != alica::severity::error) continue;
+    auto const more = errors > 1 ? " (and " + std::to_string(errors - 1) + " more: rota check)" : "";
+    throw input_error(d.file, d.place, d.reason + (d.id ? " (id " + std::to_string(*d.id) + ')' : "") + more);
+  }
+  throw input_error(files, "", missing);
+}
+
+std::string joined(std::vector<std::string> const& all) {
+  std::string out;
+  for (auto const& s : all) out += (out.empty() ? "" : ", ") + s;
+  return out;
+}
+
+}  // namespace
+
+alica::plan const& target::plan(vocabulary::plan p) const {
+  return **std::find_if(plans.begin(), plans.end(), [&](auto const* x) { return x->id == p.value; });
+}
+
+std::string target::name(alica::plan const& p) const {
+  auto const same = std::count_if(plans.begin(), plans.end(), [&](auto const* x) { return x->name == p.name; });
+  return p.name.empty() || same > 1 ? p.name + '#' + std::to_string(p.id) : p.name;
+}
+
+std::string target::name(alica::plan const& p, vocabulary::task t) const {
+  for (auto const& e : p.entry_points)
+    if (task_key(p, e) == t) return label(p, e);
+  return '#' + std::to_string(t.value);
+}
+
+std::optional<vocabulary::task> target::find_task(alica::plan const& p, std::string const& wanted) const {
+  for (auto const& e : p.entry_points)
+    if (label(p, e) == wanted) return task_key(p, e);
+  return std::nullopt;
+}
+
+std::unique_ptr<target const> find_target(std::vector<std::string> const& files, std::string const& plan_type) {
+  std::vector<std::filesystem::path> paths;
+  for (auto const& f : files) {
+    std::error_code error;
+    if (!std::filesystem::exists(f, error)) throw input_error(f.empty() ? "\"\"" : f, "", "no such file or folder");
+    paths.emplace_back(f);
+  }
+  auto t = std::make_unique<target>();
+  t->model = alica::load(paths);
+  auto const& m = t->model;
+  if (plan_type.empty()) {
+    std::set<std::string> given;
+    for (auto const& d : m.documents)
+      if (!d.followed) given.insert(d.file);
+    std::vector<std::string> names;
+    for (auto const& p : m.plans) {
+      if (!given.contains(p.file)) continue;
+      t->plans.push_back(&p);
+      names.push_back(p.name);
+    }
+    if (t->plans.empty()) give_up(m, joined(files), "no plan in it");
+    if (t->plans.size() > 1)
+      throw input_error(joined(files), "",
+                        std::to_string(names.size()) + " plans (" + joined(names) +
+                            "): give one, or --plan-type with the plan type that offers them");
+    return t;
+  }
+  for (auto const& pt : m.plan_types) {
+    if (pt.name != plan_type && std::to_string(pt.id) != plan_type) continue;
+    if (t->type != nullptr)
+      throw input_error(joined(files), "",
+                        "two plan types are called " + in_quotes(plan_type) + ": name one by its id");
+    t->type = &pt;
+  }
+  if (t->type == nullptr) give_up(m, joined(files), "no plan type is called " + in_quotes(plan_type));
+  for (auto const& c : t->type->plans)
+    if (c.activated) t->plans.push_back(m.find_plan(t->type->root, c.plan));
+  return t;
+}
+
+roster::roster(std::vector<std::string> const& present, std::vector<std::string> const& departed) {
+  for (auto const* names : {&present, &departed})
+    for (auto const& n : *names) ids_.emplace(n, vocabulary::agent{});
+  std::uint64_t next = 0;
+  for (auto& [name, id] : ids_) {
+    id = {++next};
+    names_.emplace(id, &name);
+  }
+  for (auto const& n : present) present_.push_back(ids_.at(n));
+  std::sort(present_.begin(), present_.end());
+}
+
+utilities::utilities(utility_table table, target const& t, std::string const& file) : table_(std::move(table)) {
+  std::map<std::string, std::pair<vocabulary::plan, vocabulary::task>> known;
+  std::vector<std::string> names;
+  for (auto const* p : t.plans)
+    for (auto const& e : p->entry_points) {
+      auto const& name = names.emplace_back((t.type != nullptr ? t.name(*p) + '/' : "") + label(*p, e));
+      known.emplace(name, std::pair{vocabulary::plan{p->id}, task_key(*p, e)});
+    }
+  for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+    auto const& c = table_.columns[i];
+    auto const at = known.find(c.text);
+    if (at == known.end())
+      throw input_error(file, c.place(), "no task is called " + in_quotes(c.text) + "; there are " + joined(names));
+    columns_.emplace(at->second, i);
+  }
+  for (std::size_t i = 0; i < table_.agents.size(); ++i) rows_.emplace(table_.agents[i], i);
+}
+
+std::optional<double> utilities::operator()(std::string const& agent, vocabulary::plan p, vocabulary::task t) const {
+  auto const row = rows_.find(agent);
+  auto const column = columns_.find({p, t});
+  if (row == rows_.end() || column == columns_.end()) return std::nullopt;
+  return table_.cells[row->second][column->second];
+}
+
+named_allocation read_allocation(std::string const& file) {
+  auto const text = read_text(file);
+  alica::load_options const limits;
+  alica::detail::json_guard guard{text, limits};
+  if (!nlohmann::json::sax_parse(text, &guard)) throw input_error(file, guard.place, guard.reason);
+  auto const tree = nlohmann::json::parse(text, nullptr, false);
+
+  auto const need = [&](bool holds, std::string const& place, std::string const& reason) {
+    if (!holds) throw input_error(file, place, reason);
+  };
+  need(tree.is_object(), "/", "not an allocation: a JSON object is expected");
+  for (auto const& [key, value] : tree.items()) {
+    static std::set<std::string, std::less<>> const keys = {"plan", "utility", "optimal", "assignment",
+                                                            "idle", "event",   "reason"};
+    need(keys.contains(key), '/' + key, "an allocation has no such key");
+  }
+  need(tree.contains("plan"), "/", "the key \"plan\" is missing");
+  named_allocation a;
+  auto const& plan = tree["plan"];
+  need(plan.is_null() || plan.is_string(), "/plan", "neither a name nor null");
+  if (plan.is_string()) a.plan = plan.get<std::string>();
+  need(tree.contains("assignment") || !a.plan, "/", "the key \"assignment\" is missing");
+  if (!tree.contains("assignment")) return a;
+  auto const& all = tree["assignment"];
+  need(all.is_array(), "/assignment", "not a list");
+  need(a.plan || all.empty(), "/assignment", "tasks without a plan");
+  std::set<std::string> agents;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    auto const place = "/assignment/" + std::to_string(i);
+    need(all[i].is_object(), place, "not an object");
+    for (auto const& [key, value] : all[i].items())
+      need(key == "agent" || key == "task", place + '/' + key, "only \"agent\" and \"task\" belong here");
+    for (auto const* key : {"agent", "task"}) {
+      need(all[i].contains(key), place, "the key \"" + std::string(key) + "\" is missing");
+      need(all[i][key].is_string(), place + '/' + key, "not a name");
+    }
+    a.assignment.push_back({all[i]["agent"].get<std::string>(), all[i]["task"].get<std::string>(), place});
+    need(agents.insert(a.assignment.back().agent).second, place,
+         "the agent " + in_quotes(a.assignment.back().agent) + " has two tasks");
+  }
+  return a;
+}
+
+}  // namespace rota::cli
