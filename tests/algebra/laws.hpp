@@ -59,6 +59,8 @@ bool cancellative(E const& a, E const& b, E const& c) {
 }
 
 inline law_names const event_laws{"closed", "identity", "commutative", "inverse", "unique_inverse", "idempotent"};
+inline law_names const abelian_group_axioms{"closed", "identity", "commutative", "associative", "inverse"};
+/// With what follows from the axioms, and falls with them.
 inline law_names const abelian_group_laws{"closed",  "identity",       "commutative", "associative",
                                           "inverse", "unique_inverse", "cancellative"};
 
@@ -199,13 +201,14 @@ template <class M, class C>
 bool difference_is_a_functor(C const& c, C const& d, C const& e) {
   return M::compose(M::difference(c, d), M::difference(d, e)) == M::difference(c, e) && M::difference(c, c).empty();
 }
-/// f·(e·c) = compose(e, f)·c wherever the left side exists.
+/// f·(e·c) = compose(e, f)·c where e is applicable at c, and f at e·c.
 template <class M, class E, class C>
 bool apply_is_compatible_with_compose(E const& e, E const& f, C const& c) {
+  if (!M::applicable(e, c)) return true;
   auto const once = M::apply(e, c);
-  if (!once.has_value() || !M::apply(f, *once).has_value()) return true;
-  auto const both = M::apply(M::compose(e, f), c);
-  return both.has_value() && *both == *M::apply(f, *once);
+  if (!once.has_value()) return false;
+  if (!M::applicable(f, *once)) return true;
+  return M::apply(f, *once).has_value() && M::apply(M::compose(e, f), c) == M::apply(f, *once);
 }
 
 template <class M, class D, class E, class C>
