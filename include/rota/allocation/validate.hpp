@@ -33,6 +33,7 @@ template <vocabulary V = runtime_vocabulary>
 struct violation {
   clause what{};
   typename V::plan plan{};               ///< the plan p against which the judgement was made
+  bool about_atom = false;               ///< whether `atom` is the witness, or the whole allocation is
   in<V> atom{};                          ///< 0, foreign_task, stranger, role, 4, forbidden_pair, 6 (a term's fault)
   in<V> other{};                         ///< 4: the agent's second atom; may differ in state only
   typename V::state state{};             ///< 4: state of `atom`, where states were given
@@ -106,6 +107,7 @@ template <vocabulary V>
   violation<V> v;
   v.what = c;
   v.plan = p;
+  v.about_atom = true;
   v.atom = x;
   v.agent = x.agent;
   v.task = x.task;

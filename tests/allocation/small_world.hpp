@@ -1,0 +1,286 @@
+#pragma once
+/// @file
+/// Small random allocation problems: as plain data, for oracles, and built into the model, for the library.
+/// Includes nothing of allocation/ or search/, so that an oracle on the plain data shares no code with either.
+
+#include <rota/model/plan_type.hpp>
+#include <rota/model/team.hpp>
+
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace small_world {
+
+struct names {
+  enum class agent : std::uint8_t {};
+  enum class plan_type : std::uint8_t { only };
+  enum class plan : std::uint8_t {};
+  enum class task : std::uint8_t {};
+  enum class state : std::uint8_t {};
+};
+
+inline constexpr unsigned unlimited = ~0u;
+
+/// In(agent, plan, task) in plain numbers.
+struct fact {
+  int agent = 0;
+  int plan = 0;
+  int task = 0;
+  friend auto operator<=>(fact const&, fact const&) = default;
+};
+using facts = std::vector<fact>;  // ascending, distinct
+
+enum class truth { always, often, seldom, never };
+
+struct raw_task {
+  int id = 0;
+  unsigned min = 0;
+  unsigned max = unlimited;
+};
+
+struct raw_plan {
+  int id = 0;
+  std::vector<raw_task> tasks;
+  unsigned team_min = 0;
+  unsigned team_max = unlimited;
+  bool general = false;
+  bool bounded = false;  // a general utility with a bound
+  truth pre = truth::always;
+  bool entry_only = false;
+  double offset = 0;  // of a general utility
+  double hysteresis = 0;
+  std::uint64_t salt = 0;
+  std::array<std::array<std::optional<double>, 8>, 8> u{};  // [agent][task]
+};
+
+struct raw_problem {
+  std::vector<int> members;                          // in listing order
+  std::vector<int> participants;                     // ascending
+  std::array<std::array<bool, 8>, 8> forbidden{};    // by role: [agent][task]
+  bool idle = true;
+  std::vector<raw_plan> plans;                       // in listing order
+};
+
+inline double sum_of(raw_plan const& p, facts const& c) {
+  double sum = 0;
+  for (fact const& x : c)
+    if (auto const& u = p.u[static_cast<std::size_t>(x.agent)][static_cast<std::size_t>(x.task)]) sum += *u;
+  return sum;
+}
+
+/// General utility: the sum, less one for each pair of agents on one task, plus the offset.
+inline double general_value(raw_plan const& p, facts const& c) {
+  double value = sum_of(p, c) + p.offset;
+  for (fact const& x : c)
+    for (fact const& y : c) value -= x.agent < y.agent && x.task == y.task ? 1.0 : 0.0;
+  return value;
+}
+
+inline bool holds(raw_plan const& p, facts const& c) {
+  std::uint64_t h = p.salt;
+  for (fact const& x : c)
+    h = (h ^ static_cast<std::uint64_t>(x.agent * 8 + x.task + 1)) * 0x9E3779B97F4A7C15u + (h >> 29);
+  switch (p.pre) {
+    case truth::always: return true;
+    case truth::often: return (h >> 40) % 4 != 0;
+    case truth::seldom: return (h >> 40) % 8 == 0;
+    case truth::never: return false;
+  }
+  return true;
+}
+
+/// What a random problem may contain.
+struct flavour {
+  int agents = 4;
+  int tasks = 3;
+  int plans = 2;
+  int levels = 3;          // how many different utilities; few make ties
+  bool general = false;
+  bool preconditions = false;
+  bool negative = false;
+};
+
+/// Numbers from a seed: rapidcheck picks the seed and the sizes, so that sizes shrink and a case costs one draw.
+class dice {
+public:
+  explicit dice(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t bits() {
+    state_ += 0x9E3779B97F4A7C15u;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+  }
+  int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
+  bool chance(int percent) { return below(100) < percent; }
+  template <class T>
+  void shuffle(std::vector<T>& v) {
+    for (std::size_t i = v.size(); i > 1; --i) std::swap(v[i - 1], v[bits() % i]);
+  }
+  /// k distinct numbers below n, ascending.
+  std::vector<int> some(int k, int n) {
+    std::vector<int> all;
+    for (int i = 0; i < n; ++i) all.push_back(i);
+    shuffle(all);
+    all.resize(static_cast<std::size_t>(k));
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+private:
+  std::uint64_t state_;
+};
+
+inline raw_plan random_plan(dice& d, int id, flavour const& f) {
+  raw_plan p;
+  p.id = id;
+  p.salt = d.bits();
+  for (int t : d.some(1 + d.below(f.tasks), 4)) {
+    raw_task r{t, static_cast<unsigned>(d.chance(65) ? 0 : 1 + d.below(2)), unlimited};
+    if (d.chance(60)) r.max = r.min + static_cast<unsigned>(d.below(3));
+    p.tasks.push_back(r);
+  }
+  d.shuffle(p.tasks);
+  if (d.chance(30)) p.team_min = static_cast<unsigned>(d.below(4));
+  if (d.chance(30)) p.team_max = p.team_min + static_cast<unsigned>(d.below(3));
+  if (f.general && d.chance(60)) p.general = true, p.bounded = d.chance(50);
+  if (f.preconditions) p.pre = static_cast<truth>(d.below(4)), p.entry_only = d.chance(40);
+  p.offset = f.negative ? -d.below(4) : d.below(2);
+  p.hysteresis = d.below(4) * 0.5;
+  int const forbidding = d.chance(40) ? 0 : d.below(60);
+  for (auto& row : p.u)
+    for (auto& u : row) {
+      u = 0.5 * d.below(f.levels) - (f.negative ? 0.5 * d.below(f.levels) : 0.0);
+      if (d.chance(forbidding)) u.reset();
+    }
+  if (d.chance(30)) p.u.fill(p.u[0]);  // interchangeable agents
+  return p;
+}
+
+inline raw_problem random_problem(dice& d, flavour const& f) {
+  raw_problem r;
+  int const n = d.chance(70) ? f.agents : d.below(f.agents + 1);
+  auto const all = d.some(std::min(7, n + d.below(2)), 7);
+  r.members = all;
+  d.shuffle(r.members);
+  r.participants = all;
+  while (static_cast<int>(r.participants.size()) > n)
+    r.participants.erase(r.participants.begin() + d.below(static_cast<int>(r.participants.size())));
+  r.idle = d.chance(70);
+  int const forbidding = d.chance(40) ? 0 : d.below(50);
+  for (auto& row : r.forbidden)
+    for (bool& b : row) b = d.chance(forbidding);
+  for (int id : d.some(1 + d.below(f.plans), 5)) r.plans.push_back(random_plan(d, id, f));
+  d.shuffle(r.plans);
+  return r;
+}
+
+/// A seed and a number of [low, high] at full size from the first case on: rapidcheck's own grow with the case number, so
+/// that small cases would repeat and large ones be rare.
+inline auto any_seed() { return rc::gen::noShrink(rc::gen::resize(100, rc::gen::arbitrary<std::uint64_t>())); }
+inline auto between(int low, int high) { return rc::gen::resize(100, rc::gen::inRange(low, high + 1)); }
+
+/// The same problem as the library sees it. Beliefs are unused: the functions carry their plan's data.
+using plan_t = rota::plan<names, rota::no_beliefs>;
+using plan_type_t = rota::plan_type<names, rota::no_beliefs>;
+using atoms_t = rota::allocation_atoms<names>;
+
+inline facts to_facts(rota::allocation_view<names> atoms) {
+  facts r;
+  for (auto const& x : atoms)
+    r.push_back({static_cast<int>(x.agent), static_cast<int>(x.plan), static_cast<int>(x.task)});
+  return r;
+}
+inline facts to_facts(atoms_t const& atoms) { return to_facts(atoms.atoms()); }
+
+inline atoms_t to_atoms(facts const& c) {
+  atoms_t r;
+  for (fact const& x : c) r.insert({names::agent(x.agent), names::plan(x.plan), names::task(x.task)});
+  return r;
+}
+
+inline rota::cardinality to_cardinality(unsigned min, unsigned max) {
+  return {min, max == unlimited ? rota::cardinality::unbounded : max};
+}
+
+inline plan_t build(raw_plan const& raw) {
+  rota::plan_description<names, rota::no_beliefs> d;
+  d.plan = names::plan(raw.id);
+  for (raw_task const& t : raw.tasks) d.tasks.push_back({names::task(t.id), to_cardinality(t.min, t.max), {}});
+  d.team_size = to_cardinality(raw.team_min, raw.team_max);
+  d.hysteresis = raw.hysteresis;
+  d.scope = raw.entry_only ? rota::precondition_scope::entry_only : rota::precondition_scope::always;
+  auto const shared = std::make_shared<raw_plan const>(raw);
+  if (raw.pre != truth::always)
+    d.precondition = [shared](rota::no_beliefs, rota::allocation_view<names> c) { return holds(*shared, to_facts(c)); };
+  if (!raw.general) {
+    d.utility = rota::additive_utility<names, rota::no_beliefs>(
+        [shared](names::agent a, names::task t, rota::no_beliefs) {
+          return shared->u[static_cast<std::size_t>(a)][static_cast<std::size_t>(t)];
+        });
+    return std::move(plan_t::make(std::move(d)).value());
+  }
+  rota::general_utility<names, rota::no_beliefs> u;
+  u.value = [shared](rota::no_beliefs, rota::allocation_view<names> c) { return general_value(*shared, to_facts(c)); };
+  if (raw.bounded)
+    u.bound = [shared](rota::no_beliefs, rota::allocation_view<names> c, std::span<names::agent const> rest) {
+      double bound = general_value(*shared, to_facts(c));
+      for (auto a : rest) {
+        double most = 0;
+        for (auto const& v : shared->u[static_cast<std::size_t>(a)]) most = std::max(most, v.value_or(0));
+        bound += most;
+      }
+      return bound;
+    };
+  d.utility = std::move(u);
+  return std::move(plan_t::make(std::move(d)).value());
+}
+
+/// Owns what a `rota::problem` views.
+struct built {
+  plan_type_t type;
+  rota::team<names> team;
+  std::vector<names::agent> participants;
+  rota::no_beliefs beliefs{};
+
+  explicit built(raw_problem const& raw) : type(build_type(raw)) {
+    for (int a : raw.members) {
+      rota::role<names> role;
+      for (int t = 0; t < 8; ++t)
+        if (raw.forbidden[static_cast<std::size_t>(a)][static_cast<std::size_t>(t)]) role.forbid(names::task(t));
+      team.add(names::agent(a), role);
+    }
+    for (int a : raw.participants) participants.push_back(names::agent(a));
+  }
+  static plan_type_t build_type(raw_problem const& raw) {
+    std::vector<plan_t> plans;
+    for (raw_plan const& p : raw.plans) plans.push_back(build(p));
+    return std::move(plan_type_t::make(names::plan_type::only, std::move(plans)).value());
+  }
+};
+
+/// A random allocation, meant for p: mostly sensible, so that every clause is violated alone as well as together with others.
+inline facts random_facts(dice& d, raw_problem const& r, raw_plan const& p) {
+  facts c;
+  for (int a : r.participants) {
+    if (d.chance(r.idle ? 25 : 15)) continue;
+    auto const& t = p.tasks[static_cast<std::size_t>(d.below(static_cast<int>(p.tasks.size())))];
+    c.push_back({a, p.id, t.id});
+  }
+  int const noise = d.chance(60) ? 0 : 1 + d.below(2);
+  for (int i = 0; i < noise; ++i) {
+    int const a = r.members.empty() || d.chance(30) ? d.below(8) : r.members[d.bits() % r.members.size()];
+    c.push_back({a, d.chance(70) ? p.id : d.below(6), d.chance(60) ? p.tasks[0].id : d.below(5)});
+  }
+  std::sort(c.begin(), c.end());
+  c.erase(std::unique(c.begin(), c.end()), c.end());
+  return c;
+}
+
+}  // namespace small_world
