@@ -12,17 +12,17 @@ namespace reading {
 using namespace small_world;
 
 struct verdict {
-  std::set<fact> other_plan;       // (0)
-  std::set<fact> foreign;          // task outside Tasks(p)
+  std::set<fact> other_plan;  // (0)
+  std::set<fact> foreign;     // task outside Tasks(p)
   std::set<fact> strangers;
   std::set<fact> roles;
-  std::set<int> cardinality;       // tasks
-  std::set<int> two_tasks;         // agents
-  bool precondition = false;       // violated
+  std::set<int> cardinality;  // tasks
+  std::set<int> two_tasks;    // agents
+  bool precondition = false;  // violated
   bool negative = false;
-  std::set<fact> forbidden;        // pairs
+  std::set<fact> forbidden;  // pairs
   bool team_size = false;
-  std::set<int> idle;              // agents
+  std::set<int> idle;  // agents
 
   [[nodiscard]] bool valid() const {
     return other_plan.empty() && foreign.empty() && strangers.empty() && roles.empty() && cardinality.empty() &&

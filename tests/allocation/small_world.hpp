@@ -60,11 +60,11 @@ struct raw_plan {
 };
 
 struct raw_problem {
-  std::vector<int> members;                          // in listing order
-  std::vector<int> participants;                     // ascending
-  std::array<std::array<bool, 8>, 8> forbidden{};    // by role: [agent][task]
+  std::vector<int> members;                        // in listing order
+  std::vector<int> participants;                   // ascending
+  std::array<std::array<bool, 8>, 8> forbidden{};  // by role: [agent][task]
   bool idle = true;
-  std::vector<raw_plan> plans;                       // in listing order
+  std::vector<raw_plan> plans;  // in listing order
 };
 
 inline double sum_of(raw_plan const& p, facts const& c) {
@@ -87,10 +87,10 @@ inline bool holds(raw_plan const& p, facts const& c) {
   for (fact const& x : c)
     h = (h ^ static_cast<std::uint64_t>(x.agent * 8 + x.task + 1)) * 0x9E3779B97F4A7C15u + (h >> 29);
   switch (p.pre) {
-    case truth::always: return true;
-    case truth::often: return (h >> 40) % 4 != 0;
-    case truth::seldom: return (h >> 40) % 8 == 0;
-    case truth::never: return false;
+  case truth::always: return true;
+  case truth::often: return (h >> 40) % 4 != 0;
+  case truth::seldom: return (h >> 40) % 8 == 0;
+  case truth::never: return false;
   }
   return true;
 }
@@ -100,7 +100,7 @@ struct flavour {
   int agents = 4;
   int tasks = 3;
   int plans = 2;
-  int levels = 3;          // how many different utilities; few make ties
+  int levels = 3;  // how many different utilities; few make ties
   bool general = false;
   bool preconditions = false;
   bool negative = false;
@@ -220,8 +220,8 @@ inline plan_t build(raw_plan const& raw) {
   if (raw.pre != truth::always)
     d.precondition = [shared](rota::no_beliefs, rota::allocation_view<names> c) { return holds(*shared, to_facts(c)); };
   if (!raw.general) {
-    d.utility = rota::additive_utility<names, rota::no_beliefs>(
-        [shared](names::agent a, names::task t, rota::no_beliefs) {
+    d.utility =
+        rota::additive_utility<names, rota::no_beliefs>([shared](names::agent a, names::task t, rota::no_beliefs) {
           return shared->u[static_cast<std::size_t>(a)][static_cast<std::size_t>(t)];
         });
     return std::move(plan_t::make(std::move(d)).value());

@@ -26,17 +26,17 @@ reading::verdict translate(rota::validity_report<names> const& report) {
   for (auto const& x : report) {
     fact const f{static_cast<int>(x.atom.agent), static_cast<int>(x.atom.plan), static_cast<int>(x.atom.task)};
     switch (x.what) {
-      case clause::one_plan: v.other_plan.insert(f); break;
-      case clause::foreign_task: v.foreign.insert(f); break;
-      case clause::stranger: v.strangers.insert(f); break;
-      case clause::role: v.roles.insert(f); break;
-      case clause::cardinality: v.cardinality.insert(static_cast<int>(x.task)); break;
-      case clause::one_task: v.two_tasks.insert(static_cast<int>(x.agent)); break;
-      case clause::precondition: v.precondition = true; break;
-      case clause::utility: v.negative = x.fault == utility_fault::negative; break;
-      case clause::forbidden_pair: v.forbidden.insert(f); break;
-      case clause::team_size: v.team_size = true; break;
-      case clause::idle_forbidden: v.idle.insert(static_cast<int>(x.agent)); break;
+    case clause::one_plan: v.other_plan.insert(f); break;
+    case clause::foreign_task: v.foreign.insert(f); break;
+    case clause::stranger: v.strangers.insert(f); break;
+    case clause::role: v.roles.insert(f); break;
+    case clause::cardinality: v.cardinality.insert(static_cast<int>(x.task)); break;
+    case clause::one_task: v.two_tasks.insert(static_cast<int>(x.agent)); break;
+    case clause::precondition: v.precondition = true; break;
+    case clause::utility: v.negative = x.fault == utility_fault::negative; break;
+    case clause::forbidden_pair: v.forbidden.insert(f); break;
+    case clause::team_size: v.team_size = true; break;
+    case clause::idle_forbidden: v.idle.insert(static_cast<int>(x.agent)); break;
     }
   }
   return v;
@@ -138,12 +138,13 @@ struct one_task_world {
   rota::team<names> team{names::agent(1), names::agent(2), names::agent(3)};
   rota::no_beliefs beliefs{};
   explicit one_task_world(rota::plan_description<names, rota::no_beliefs> d)
-      : type(std::move(plan_type_t::make(names::plan_type::only, {std::move(plan_t::make(std::move(d)).value())}).value())) {}
+      : type(std::move(
+            plan_type_t::make(names::plan_type::only, {std::move(plan_t::make(std::move(d)).value())}).value())) {}
   [[nodiscard]] rota::problem<names, rota::no_beliefs> problem() const { return {type, team, beliefs}; }
 };
 
-rota::plan_description<names, rota::no_beliefs> description(
-    std::function<std::optional<double>(names::agent, names::task, rota::no_beliefs)> u) {
+rota::plan_description<names, rota::no_beliefs>
+description(std::function<std::optional<double>(names::agent, names::task, rota::no_beliefs)> u) {
   rota::plan_description<names, rota::no_beliefs> d;
   d.plan = names::plan(1);
   d.tasks = {{names::task(1), {}, {}}, {names::task(2), {}, {}}};
@@ -151,9 +152,7 @@ rota::plan_description<names, rota::no_beliefs> description(
   return d;
 }
 
-constexpr rota::in<names> at(int a, int t = 1, int p = 1) {
-  return {names::agent(a), names::plan(p), names::task(t)};
-}
+constexpr rota::in<names> at(int a, int t = 1, int p = 1) { return {names::agent(a), names::plan(p), names::task(t)}; }
 
 TEST(validity, what_is_no_utility_is_named) {
   auto const infinity = std::numeric_limits<double>::infinity();
@@ -199,7 +198,9 @@ TEST(validity, a_function_that_throws_is_a_reason) {
 TEST(validity, one_agent_has_one_task_and_one_state) {
   one_task_world const w(description([](auto, auto, auto) { return 1.0; }));
   using atom = rota::in_state<names>;
-  auto with = [](int a, int t, int z) { return atom{names::agent(a), names::plan(1), names::task(t), names::state(z)}; };
+  auto with = [](int a, int t, int z) {
+    return atom{names::agent(a), names::plan(1), names::task(t), names::state(z)};
+  };
   EXPECT_TRUE(validate(w.problem(), rota::atom_set<atom>{with(1, 1, 5), with(2, 1, 6)}).valid());
   auto const states = validate(w.problem(), rota::atom_set<atom>{with(1, 1, 5), with(1, 1, 6), with(2, 1, 5)});
   ASSERT_EQ(states.size(), 1u);

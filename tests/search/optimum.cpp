@@ -31,10 +31,10 @@ void agree(raw_problem const& raw, rota::workspace& work, shares& s) {
     RC_ASSERT(got.error().proved());
     RC_ASSERT(got.error().plans.size() == raw.plans.size());
     for (auto const& refusal : got.error().plans)
-      RC_ASSERT(reading::enumerate(raw, *reading::find_plan(raw, static_cast<int>(refusal.plan)),
-                                   [&](raw_plan const& p, facts const& c) {
-                                     return reading::judge(raw, p, c, false).valid();
-                                   }).plan == nullptr);
+      RC_ASSERT(reading::enumerate(
+                    raw, *reading::find_plan(raw, static_cast<int>(refusal.plan)),
+                    [&](raw_plan const& p, facts const& c) { return reading::judge(raw, p, c, false).valid(); })
+                    .plan == nullptr);
     return;
   }
   RC_ASSERT(got->optimal);
@@ -72,7 +72,8 @@ void agree(raw_problem const& raw, rota::workspace& work, shares& s) {
     return valid;
   });
   s.tied += optima > 1;
-  s.lower += std::any_of(expected.plan->tasks.begin(), expected.plan->tasks.end(), [](auto const& t) { return t.min > 0; });
+  s.lower +=
+      std::any_of(expected.plan->tasks.begin(), expected.plan->tasks.end(), [](auto const& t) { return t.min > 0; });
   s.team += expected.plan->team_min > 0 || expected.plan->team_max != unlimited;
   // A wrong model, blind to lower bounds, must be told apart.
   auto lax = raw;
@@ -119,8 +120,8 @@ TEST(best_allocation, general_utilities_and_preconditions_too) {
 }
 
 TEST(best_allocation, negative_totals_are_invalid) {
-  auto const s =
-      compare({.agents = 4, .tasks = 2, .plans = 2, .levels = 4, .general = true, .preconditions = true, .negative = true});
+  auto const s = compare(
+      {.agents = 4, .tasks = 2, .plans = 2, .levels = 4, .general = true, .preconditions = true, .negative = true});
   EXPECT_GE((s.cases - s.found) * 100, s.cases * 20) << s.found << "/" << s.cases;
 }
 
@@ -128,7 +129,8 @@ TEST(best_allocation, depends_on_no_listing_order_and_no_history) {
   rota::workspace used;
   EXPECT_TRUE(rc::check([&] {
     dice d(*any_seed().as("seed"));
-    auto raw = random_problem(d, {.agents = 6, .tasks = 4, .plans = 3, .levels = 3, .general = true, .preconditions = true});
+    auto raw =
+        random_problem(d, {.agents = 6, .tasks = 4, .plans = 3, .levels = 3, .general = true, .preconditions = true});
     built const first(raw);
     auto solve = [&](built const& b, rota::workspace& w) {
       return best_allocation(rota::problem{b.type, b.team, b.beliefs, b.participants, idling_of(raw)}, w);

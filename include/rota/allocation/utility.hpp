@@ -61,9 +61,8 @@ template <vocabulary V, class Beliefs>
 
 /// As above, over an atom set.
 template <vocabulary V, class Beliefs>
-[[nodiscard]] result<fixed_utility, utility_refusal<V>> evaluate(problem<V, Beliefs> const& problem,
-                                                                 plan<V, Beliefs> const& p,
-                                                                 allocation_atoms<V> const& atoms) {
+[[nodiscard]] result<fixed_utility, utility_refusal<V>>
+evaluate(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, allocation_atoms<V> const& atoms) {
   return evaluate(problem, p, atoms.atoms());
 }
 

@@ -11,17 +11,17 @@ namespace rota {
 
 /// What an allocation can violate. (Numbers: Def. 1; the others are stated beside it.)
 enum class clause : unsigned char {
-  one_plan,         ///< (0) every atom names the one plan p, and p belongs to the plan type
-  foreign_task,     ///< an atom of p names a task that is not in Tasks(p)
-  stranger,         ///< the agent of an atom of p takes no part, or belongs to no team
-  role,             ///< the agent's role forbids the task
-  cardinality,      ///< (1)–(3) n₁ ≤ |A| ≤ n₂ for every task of p, counting p's atoms only
-  one_task,         ///< (4) an agent has one task and one state in p
-  precondition,     ///< (5) Pre(p)
-  utility,          ///< (6) U_p ≥ 0, and it is a number
-  forbidden_pair,   ///< (6) the additive utility forbids the pair, so U_p is not defined
-  team_size,        ///< the plan's own limits on the number of agents that have a task
-  idle_forbidden    ///< a participant has no task though the problem forbids idling
+  one_plan,        ///< (0) every atom names the one plan p, and p belongs to the plan type
+  foreign_task,    ///< an atom of p names a task that is not in Tasks(p)
+  stranger,        ///< the agent of an atom of p takes no part, or belongs to no team
+  role,            ///< the agent's role forbids the task
+  cardinality,     ///< (1)–(3) n₁ ≤ |A| ≤ n₂ for every task of p, counting p's atoms only
+  one_task,        ///< (4) an agent has one task and one state in p
+  precondition,    ///< (5) Pre(p)
+  utility,         ///< (6) U_p ≥ 0, and it is a number
+  forbidden_pair,  ///< (6) the additive utility forbids the pair, so U_p is not defined
+  team_size,       ///< the plan's own limits on the number of agents that have a task
+  idle_forbidden   ///< a participant has no task though the problem forbids idling
 };
 
 /// Whether the team adopts the plan or is already executing it: `precondition_scope::entry_only` asks Pre(p) only of the
@@ -32,18 +32,18 @@ enum class plan_phase : bool { entering, running };
 template <vocabulary V = runtime_vocabulary>
 struct violation {
   clause what{};
-  typename V::plan plan{};               ///< the plan p against which the judgement was made
-  bool about_atom = false;               ///< whether `atom` is the witness, or the whole allocation is
-  in<V> atom{};                          ///< 0, foreign_task, stranger, role, 4, forbidden_pair, 6 (a term's fault)
-  in<V> other{};                         ///< 4: the agent's second atom; may differ in state only
-  typename V::state state{};             ///< 4: state of `atom`, where states were given
-  typename V::state other_state{};       ///< 4: state of `other`, where states were given
-  typename V::agent agent{};             ///< idle_forbidden; and the agent of `atom`
-  typename V::task task{};               ///< cardinality; and the task of `atom`
-  std::size_t count = 0;                 ///< cardinality, team_size: how many agents there are
-  cardinality bounds{};                  ///< cardinality, team_size: how many there may be
-  utility_fault fault{};                 ///< 5: none or threw; 6: negative, or why U_p is not a number
-  double value = 0;                      ///< 6: U_p, if negative
+  typename V::plan plan{};          ///< the plan p against which the judgement was made
+  bool about_atom = false;          ///< whether `atom` is the witness, or the whole allocation is
+  in<V> atom{};                     ///< 0, foreign_task, stranger, role, 4, forbidden_pair, 6 (a term's fault)
+  in<V> other{};                    ///< 4: the agent's second atom; may differ in state only
+  typename V::state state{};        ///< 4: state of `atom`, where states were given
+  typename V::state other_state{};  ///< 4: state of `other`, where states were given
+  typename V::agent agent{};        ///< idle_forbidden; and the agent of `atom`
+  typename V::task task{};          ///< cardinality; and the task of `atom`
+  std::size_t count = 0;            ///< cardinality, team_size: how many agents there are
+  cardinality bounds{};             ///< cardinality, team_size: how many there may be
+  utility_fault fault{};            ///< 5: none or threw; 6: negative, or why U_p is not a number
+  double value = 0;                 ///< 6: U_p, if negative
 
   friend constexpr bool operator==(violation const&, violation const&) = default;
 };
@@ -253,8 +253,7 @@ std::optional<fixed_utility> judge(problem<V, Beliefs> const& problem, plan<V, B
 /// Complexity: O(|C| (t + log n)) and the calls of the user's functions. Allocates only to report, or for |C| > 8.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] validity_report<V> validate(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
-                                          allocation_atoms<V> const& atoms,
-                                          plan_phase phase = plan_phase::entering) {
+                                          allocation_atoms<V> const& atoms, plan_phase phase = plan_phase::entering) {
   validity_report<V> report;
   if (problem.type.find(p.id()) == nullptr) {
     violation<V> v;
@@ -269,8 +268,7 @@ template <vocabulary V, class Beliefs>
 /// As above over atoms with states: clause (4) also refuses an agent with two states.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] validity_report<V> validate(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
-                                          atom_set<in_state<V>> const& atoms,
-                                          plan_phase phase = plan_phase::entering) {
+                                          atom_set<in_state<V>> const& atoms, plan_phase phase = plan_phase::entering) {
   allocation_atoms<V> projected;
   for (in_state<V> const& x : atoms) projected.insert(project(x));
   auto const plain = validate(problem, p, projected, phase);

@@ -61,7 +61,8 @@ private:
 
   // The sink is node slots_. A place in a slot is a unit of flow from the slot to the sink.
   [[nodiscard]] std::int64_t excess(std::size_t node) const {
-    return node == slots_ ? surplus_ : static_cast<std::int64_t>(count_[node]) - static_cast<std::int64_t>(places_[node]);
+    return node == slots_ ? surplus_
+                          : static_cast<std::int64_t>(count_[node]) - static_cast<std::int64_t>(places_[node]);
   }
   [[nodiscard]] bool to_sink(instance const& in, std::size_t s) const { return places_[s] < in.bounds[s].upper; }
   [[nodiscard]] bool from_sink(instance const& in, std::size_t s) const { return places_[s] > in.bounds[s].lower; }
@@ -78,6 +79,7 @@ private:
     next_.resize(slots_ + 1);
     by_.resize(slots_ + 1);
     done_.resize(slots_ + 1);
+    queue_.reserve(slots_ + 1);
     loss_.assign(slots_ * slots_, infinite);
     mover_.resize(slots_ * slots_);
     for (std::size_t a = 0; a < in.agents; ++a) {
@@ -265,13 +267,13 @@ private:
   }
 
   std::size_t slots_ = 0;
-  std::int64_t surplus_ = 0;             // excess of the sink
+  std::int64_t surplus_ = 0;  // excess of the sink
   std::vector<slot> assignment_;
-  std::vector<std::uint32_t> count_;     // agents in a slot
-  std::vector<std::uint32_t> places_;    // units from a slot to the sink; = count_ when balanced
-  std::vector<std::int64_t> loss_;       // W, row-major
-  std::vector<index> mover_;             // whose move W[j][k] is
-  std::vector<std::int64_t> price_;      // π
+  std::vector<std::uint32_t> count_;   // agents in a slot
+  std::vector<std::uint32_t> places_;  // units from a slot to the sink; = count_ when balanced
+  std::vector<std::int64_t> loss_;     // W, row-major
+  std::vector<index> mover_;           // whose move W[j][k] is
+  std::vector<std::int64_t> price_;    // π
   std::vector<std::int64_t> distance_;
   std::vector<slot> next_;
   std::vector<index> by_;

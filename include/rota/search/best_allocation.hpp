@@ -22,9 +22,9 @@ namespace rota {
 /// the plans share equally, what one leaves going to the next. Memory O(n·t + t²), in the workspace; nothing else is
 /// allocated for up to 8 agents and 2 refused plans.
 template <vocabulary V, class Beliefs>
-[[nodiscard]] result<solution<V>, no_allocation<V>> best_allocation(
-    problem<V, Beliefs> const& problem, workspace& work, search_budget budget = {},
-    allocation_view<V> running = {}) {
+[[nodiscard]] result<solution<V>, no_allocation<V>> best_allocation(problem<V, Beliefs> const& problem, workspace& work,
+                                                                    search_budget budget = {},
+                                                                    allocation_view<V> running = {}) {
   solution<V> best;
   no_allocation<V> none;
   bool found = false;
@@ -57,7 +57,7 @@ template <vocabulary V, class Beliefs>
     best.plan = p.id();
     best.exact = *outcome.utility;
     best.utility = to_double(best.exact);
-    work.best.swap(work.candidate);
+    work.best.assign(work.candidate.begin(), work.candidate.end());
   }
   if (!found) {
     none.work = best.work;

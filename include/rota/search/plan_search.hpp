@@ -25,7 +25,9 @@ public:
   };
 
   plan_search(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, bool running, workspace& w)
-      : problem_(problem), plan_(p), work_(w),
+      : problem_(problem),
+        plan_(p),
+        work_(w),
         precondition_(p.precondition() && !(running && p.scope() == precondition_scope::entry_only)),
         additive_(std::get_if<additive_utility<V, Beliefs>>(&p.utility())),
         general_(std::get_if<general_utility<V, Beliefs>>(&p.utility())) {}
@@ -43,13 +45,11 @@ public:
     if (additive_ != nullptr) {
       if (first.utility < 0) return negative(first.utility);
       auto const assignment = work_.additive.assignment();
-      if (!precondition_ || leaf(assignment, first.utility, {}))
-        return accept(assignment, first.utility, true);
+      if (!precondition_ || leaf(assignment, first.utility, {})) return accept(assignment, first.utility, true);
       set_suffix(in);
     }
-    auto const tree =
-        additive_ != nullptr ? work_.tree.solve(in, *this, budget.nodes, first.utility)
-                             : work_.tree.solve(in, *this, budget.nodes);
+    auto const tree = additive_ != nullptr ? work_.tree.solve(in, *this, budget.nodes, first.utility)
+                                           : work_.tree.solve(in, *this, budget.nodes);
     done.nodes += tree.nodes;
     if (tree.found && tree.value >= 0) return accept(work_.tree.assignment(), tree.value, tree.complete);
     if (!tree.complete) return refuse(no_plan_reason::search_incomplete);
@@ -109,8 +109,7 @@ private:
     if (least > size_max) return fail(no_plan_reason::contradictory_cardinalities, least, size);
     if (most < size.min()) return fail(no_plan_reason::contradictory_cardinalities, most, size);
     std::uint64_t const needed = std::max<std::uint64_t>(least, size.min());
-    if (n < needed)
-      return fail(no_plan_reason::too_few_agents, n, {clip(needed), cardinality::unbounded});
+    if (n < needed) return fail(no_plan_reason::too_few_agents, n, {clip(needed), cardinality::unbounded});
     std::uint64_t const room = std::min(most, size_max);
     if (problem_.idle == idling::forbidden && n > room)
       return fail(no_plan_reason::too_many_agents, n, {0, clip(room)});

@@ -18,7 +18,7 @@ enum class reallocation_reason : unsigned char {
   kept_hysteresis,      ///< something is better, by no more than the margin
   kept_unproved,        ///< the budget ran out, and nothing found beats the current one
   no_valid_allocation,  ///< proved; the allocation becomes ∅
-  search_incomplete     ///< the current one is not valid, and the budget ran out before a valid one was found; becomes ∅
+  search_incomplete  ///< the current one is not valid, and the budget ran out before a valid one was found; becomes ∅
 };
 
 /// What to do now: `event` leads from the current allocation to `atoms`.
@@ -84,8 +84,9 @@ template <vocabulary V, class Beliefs>
 /// Where no valid allocation exists the team has none: the event subtracts every atom. That is honest (each atom would
 /// claim a validity the agent does not believe in), and the next call with a satisfiable problem starts as `first`.
 ///
-/// Laws: event = difference(current, atoms), so it is applicable at `current`; calling again with `atoms` and unchanged
-/// beliefs gives the empty event.
+/// Laws: event = difference(current, atoms), so it is applicable at `current`. Calling again with `atoms` and unchanged
+/// beliefs gives the empty event, unless `atoms` entered a plan whose precondition is `entry_only`: then it may move on to
+/// an allocation that could not have been entered.
 /// Complexity: `best_allocation`, and one evaluation of the current allocation.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] reallocation<V> reallocate(problem<V, Beliefs> const& problem, allocation_atoms<V> const& current,
@@ -116,8 +117,7 @@ template <vocabulary V, class Beliefs>
                   : now           ? reallocation_reason::adopted_better
                                   : reallocation_reason::current_invalid;
   } else {
-    next.reason =
-        next.optimal ? reallocation_reason::no_valid_allocation : reallocation_reason::search_incomplete;
+    next.reason = next.optimal ? reallocation_reason::no_valid_allocation : reallocation_reason::search_incomplete;
   }
   next.event = difference(current, next.atoms);
   return next;

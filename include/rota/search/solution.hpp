@@ -23,9 +23,9 @@ template <vocabulary V = runtime_vocabulary>
 struct solution {
   typename V::plan plan{};
   allocation_atoms<V> atoms;
-  double utility = 0;         ///< of `atoms`, exactly the fixed-point value (up to 2^33)
-  fixed_utility exact{};      ///< the same, for comparisons
-  bool optimal = false;       ///< proved: no valid allocation of any plan is better; false only if the budget ran out
+  double utility = 0;     ///< of `atoms`, exactly the fixed-point value (up to 2^33)
+  fixed_utility exact{};  ///< the same, for comparisons
+  bool optimal = false;   ///< proved: no valid allocation of any plan is better; false only if the budget ran out
   search_work work{};
   std::optional<rota::runner_up<V>> runner_up{};
   /// The first term or total left out because it is no utility (NaN, ±∞, out of range, threw). Allocations that need it
@@ -42,12 +42,12 @@ enum class no_plan_reason : unsigned char {
   too_many_agents,              ///< `count` take part, nobody may idle, and there is room for `bounds.max()`
   task_short,                   ///< `count` agents may take on `task`, which needs `bounds`
   agent_without_task,           ///< `agent` may neither take on any task nor idle
-  pairs_contradict,             ///< each agent and task alone could be served, but not all (`agent` or `task`: one left over)
-  utility_refused,              ///< needs a utility that is none: `fault`, at (`agent`, `task`) if additive
-  precondition_never_holds,     ///< Pre(p) is false on every allocation that is valid otherwise
-  precondition_threw,           ///< and so does no admissible allocation remain
-  negative_utility,             ///< U_p is at most `value` < 0 on every allocation: clause (6)
-  search_incomplete             ///< the budget ran out before a valid allocation was found
+  pairs_contradict,  ///< each agent and task alone could be served, but not all (`agent` or `task`: one left over)
+  utility_refused,   ///< needs a utility that is none: `fault`, at (`agent`, `task`) if additive
+  precondition_never_holds,  ///< Pre(p) is false on every allocation that is valid otherwise
+  precondition_threw,        ///< and so does no admissible allocation remain
+  negative_utility,          ///< U_p is at most `value` < 0 on every allocation: clause (6)
+  search_incomplete          ///< the budget ran out before a valid allocation was found
 };
 
 /// Why one plan yields nothing, with its witness. Fields a reason does not mention keep their default.

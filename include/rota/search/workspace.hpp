@@ -33,11 +33,11 @@ class workspace {
 public:
   dense::additive_solver additive;
   dense::tree_solver tree;
-  std::vector<std::int64_t> utility;        ///< the matrix, row per agent, idle last
-  std::vector<dense::slot_bounds> bounds;   ///< of the tasks, idle last
-  std::vector<std::int64_t> suffix;         ///< additive bound of the agents from one on
-  std::vector<dense::slot> candidate;       ///< the assignment found for the present plan
-  std::vector<dense::slot> best;            ///< the assignment of the best plan so far
+  std::vector<std::int64_t> utility;       ///< the matrix, row per agent, idle last
+  std::vector<dense::slot_bounds> bounds;  ///< of the tasks, idle last
+  std::vector<std::int64_t> suffix;        ///< additive bound of the agents from one on
+  std::vector<dense::slot> candidate;      ///< the assignment found for the present plan
+  std::vector<dense::slot> best;           ///< the assignment of the best plan so far
 };
 
 }  // namespace rota

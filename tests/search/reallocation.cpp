@@ -1,0 +1,159 @@
+#include "allocation/reading.hpp"
+#include "support/allocation_counter.hpp"
+
+#include <rota/allocation/validate.hpp>
+#include <rota/search/reallocate.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <map>
+
+namespace {
+
+using namespace small_world;
+using reason = rota::reallocation_reason;
+
+/// What should happen, read off the definition on plain data.
+struct expectation {
+  facts atoms;
+  reason why{};
+};
+
+bool executes(facts const& c, raw_plan const& p) {
+  return std::any_of(c.begin(), c.end(), [&](fact const& x) { return x.plan == p.id; });
+}
+
+double value(raw_plan const& p, facts const& c) { return p.general ? general_value(p, c) : sum_of(p, c); }
+
+expectation expect(raw_problem const& raw, facts const& current, std::optional<double> absolute) {
+  auto const best = reading::enumerate(
+      raw, [&](raw_plan const& p, facts const& c) { return reading::judge(raw, p, c, executes(current, p)).valid(); });
+  std::optional<double> standing;
+  double margin = 0;
+  for (auto const& p : raw.plans) {
+    if (!current.empty() && !executes(current, p)) continue;
+    if (!reading::judge(raw, p, current, !current.empty()).valid()) continue;
+    if (standing && value(p, current) <= *standing) continue;
+    standing = value(p, current);
+    margin = current.empty() ? 0 : p.hysteresis;
+  }
+  margin = absolute.value_or(margin);
+  if (standing && best.plan != nullptr && best.utility <= *standing + margin)
+    return {current, best.utility > *standing ? reason::kept_hysteresis : reason::kept_optimal};
+  if (best.plan == nullptr) return {{}, reason::no_valid_allocation};
+  return {best.atoms, current.empty() ? reason::first : standing ? reason::adopted_better : reason::current_invalid};
+}
+
+TEST(reallocate, keeps_what_is_valid_and_good_enough) {
+  std::map<reason, int> reached;
+  int cases = 0;
+  int entry = 0;
+  rota::workspace work;
+  EXPECT_TRUE(rc::check([&] {
+    dice d(*any_seed().as("seed"));
+    auto const raw = random_problem(d, {.agents = *between(0, 4).as("agents"),
+                                        .tasks = 2,
+                                        .plans = 2,
+                                        .levels = 4,
+                                        .general = true,
+                                        .preconditions = d.chance(50)});
+    built const b(raw);
+    rota::problem const problem{b.type, b.team, b.beliefs, b.participants,
+                                raw.idle ? rota::idling::allowed : rota::idling::forbidden};
+    for (int i = 0; i < 4; ++i) {
+      auto const& p = raw.plans[d.bits() % raw.plans.size()];
+      // Often a valid one, sometimes a random or empty one.
+      facts current = d.chance(15) ? facts{} : random_facts(d, raw, p);
+      if (d.chance(70)) {
+        auto const salt = d.bits();
+        auto const some = reading::enumerate(raw, p, [&](raw_plan const& q, facts const& c) {
+          return reading::judge(raw, q, c, true).valid() &&
+                 (salt >> (c.size() + static_cast<std::size_t>(value(q, c) + 8)) & 1u) != 0;
+        });
+        if (some.plan != nullptr) current = some.atoms;
+      }
+      std::optional<double> absolute;
+      if (d.chance(30)) absolute = 0.25 * d.below(8);
+      auto const expected = expect(raw, current, absolute);
+      auto const before = to_atoms(current);
+      auto const got = reallocate(problem, before, {absolute}, work);
+      RC_ASSERT(got.reason == expected.why);
+      RC_ASSERT(to_facts(got.atoms) == expected.atoms);
+      RC_ASSERT(got.optimal);
+      RC_ASSERT(got.event == rota::difference(before, got.atoms));
+      RC_ASSERT(rota::apply(got.event, before).value() == got.atoms);
+      if (got.plan) {
+        auto const* q = reading::find_plan(raw, static_cast<int>(*got.plan));
+        RC_ASSERT(got.utility == value(*q, expected.atoms));
+        RC_ASSERT(reading::judge(raw, *q, expected.atoms, executes(current, *q)).valid());
+        entry += q->entry_only && !reading::judge(raw, *q, expected.atoms, false).valid();
+      }
+      // Nothing left to do, except where a precondition no longer counts that did on entry.
+      auto const again = reallocate(problem, got.atoms, {absolute}, work);
+      bool const entered = got.plan && reading::find_plan(raw, static_cast<int>(*got.plan))->entry_only;
+      if (!entered) RC_ASSERT(again.event.empty());
+      ++cases;
+      ++reached[got.reason];
+    }
+  }));
+  for (auto r : {reason::first, reason::adopted_better, reason::current_invalid, reason::kept_optimal,
+                 reason::kept_hysteresis, reason::no_valid_allocation})
+    EXPECT_GE(reached[r] * 100, cases * 2) << static_cast<int>(r) << ": " << reached[r] << "/" << cases;
+  EXPECT_GE(entry, 10);
+}
+
+TEST(reallocate, a_steady_loop_allocates_nothing) {
+  raw_problem raw;
+  raw.members = raw.participants = {0, 1, 2, 3, 4};
+  raw_plan p;
+  p.tasks = {{0, 1, 1}, {1, 0, 2}, {2, 0, 1}, {3, 1, 2}};
+  dice d(7);
+  for (auto& row : p.u)
+    for (auto& u : row) u = d.below(100);
+  p.hysteresis = 1;
+  raw.plans = {p};
+  built const b(raw);
+  rota::problem const problem{b.type, b.team, b.beliefs};
+  rota::workspace work;
+  auto const current = reallocate(problem, atoms_t{}, {}, work).atoms;
+  auto const before = rota_test::allocation_count();
+  for (int i = 0; i < 100; ++i) {
+    auto const next = reallocate(problem, current, {}, work);
+    ASSERT_TRUE(next.event.empty());
+    auto const fresh = reallocate(problem, atoms_t{}, {}, work);
+    ASSERT_EQ(fresh.event.size(), current.size());
+  }
+  EXPECT_EQ(rota_test::allocation_count() - before, 0u);
+}
+
+TEST(reallocate, a_spent_budget_keeps_a_valid_allocation_and_says_so) {
+  raw_problem raw;
+  raw.members = raw.participants = {0, 1, 2, 3, 4, 5};
+  raw_plan p;
+  p.id = 1;
+  p.general = true;
+  p.tasks = {{0, 1, 3}, {1, 1, 3}, {2, 0, 2}};
+  p.offset = 20;
+  dice d(7);
+  for (auto& row : p.u)
+    for (auto& u : row) u = d.below(20);
+  raw.plans = {p};
+  built const b(raw);
+  rota::problem const problem{b.type, b.team, b.beliefs};
+  rota::workspace work;
+  auto const best = reallocate(problem, atoms_t{}, {}, work);
+  ASSERT_TRUE(best.optimal);
+  auto const kept = reallocate(problem, best.atoms, {}, work, {10});
+  EXPECT_EQ(kept.reason, reason::kept_unproved);
+  EXPECT_FALSE(kept.optimal);
+  EXPECT_TRUE(kept.event.empty());
+  EXPECT_LE(kept.work.nodes, 10u);
+  auto const stopped = reallocate(problem, atoms_t{{names::agent(0), names::plan(1), names::task(0)}}, {}, work, {3});
+  EXPECT_EQ(stopped.reason, reason::search_incomplete);
+  EXPECT_TRUE(stopped.atoms.empty());
+  EXPECT_FALSE(stopped.plan);
+  EXPECT_EQ(stopped.event.size(), 1u);
+}
+
+}  // namespace

@@ -1,0 +1,222 @@
+#include "allocation/small_world.hpp"
+#include "support/allocation_counter.hpp"
+
+#include <rota/search/best_allocation.hpp>
+#include <rota/search/print.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace small_world;
+using reason = rota::no_plan_reason;
+
+/// Solves a plan of the given tasks for agents 0..n−1 after a last change to the data.
+struct fixture {
+  raw_problem raw;
+  rota::workspace work;
+  fixture(int agents, std::vector<raw_task> tasks) {
+    for (int a = 0; a < agents; ++a) raw.members.push_back(a);
+    raw.participants = raw.members;
+    raw_plan p;
+    p.id = 1;
+    p.tasks = std::move(tasks);
+    for (auto& row : p.u) row.fill(1.0);
+    raw.plans = {p};
+  }
+  raw_plan& plan() { return raw.plans[0]; }
+  std::optional<double>& u(std::size_t a, std::size_t t) { return plan().u[a][t]; }
+  auto solve(rota::search_budget budget = {}) {
+    built const b(raw);
+    return best_allocation(rota::problem{b.type, b.team, b.beliefs, b.participants,
+                                         raw.idle ? rota::idling::allowed : rota::idling::forbidden},
+                           work, budget);
+  }
+  rota::plan_refusal<names> refusal(rota::search_budget budget = {}) {
+    auto const r = solve(budget);
+    EXPECT_FALSE(r.has_value());
+    if (r) return {};
+    EXPECT_EQ(r.error().plans.size(), 1u);
+    EXPECT_FALSE(rota::describe(r.error().plans[0]).empty());
+    return r.error().plans[0];
+  }
+};
+
+TEST(no_allocation, cardinalities_that_contradict_the_team_size) {
+  fixture f(5, {{0, 2, 2}, {1, 2, 3}});
+  f.plan().team_max = 3;
+  auto const r = f.refusal();
+  EXPECT_EQ(r.why, reason::contradictory_cardinalities);
+  EXPECT_EQ(r.count, 4u);
+  f.plan().team_max = unlimited;
+  f.plan().team_min = 6;
+  EXPECT_EQ(f.refusal().why, reason::contradictory_cardinalities);
+  EXPECT_EQ(f.refusal().count, 5u);
+}
+
+TEST(no_allocation, too_few_and_too_many_agents) {
+  fixture f(3, {{0, 2, 2}, {1, 2, 2}});
+  EXPECT_EQ(f.refusal().why, reason::too_few_agents);
+  EXPECT_EQ(f.refusal().count, 3u);
+  EXPECT_EQ(f.refusal().bounds.min(), 4u);
+  fixture g(5, {{0, 0, 2}, {1, 0, 2}});
+  EXPECT_TRUE(g.solve());
+  g.raw.idle = false;
+  EXPECT_EQ(g.refusal().why, reason::too_many_agents);
+  EXPECT_EQ(g.refusal().bounds.max(), 4u);
+}
+
+TEST(no_allocation, forbidden_pairs) {
+  fixture f(3, {{0, 0, 3}, {1, 2, 2}});
+  f.u(0, 1).reset();
+  f.raw.forbidden[2][1] = true;
+  auto const r = f.refusal();
+  EXPECT_EQ(r.why, reason::task_short);
+  EXPECT_EQ(r.task, names::task(1));
+  EXPECT_EQ(r.count, 1u);
+
+  fixture g(3, {{0, 0, 3}});
+  g.raw.idle = false;
+  g.u(1, 0).reset();
+  EXPECT_EQ(g.refusal().why, reason::agent_without_task);
+  EXPECT_EQ(g.refusal().agent, names::agent(1));
+
+  // Hall's condition fails: agents 0 and 1 fit task 0 only, which bears one.
+  fixture h(3, {{0, 0, 1}, {1, 0, 2}});
+  h.raw.idle = false;
+  h.u(0, 1).reset();
+  h.u(1, 1).reset();
+  EXPECT_EQ(h.refusal().why, reason::pairs_contradict);
+  // And its mirror image: tasks 0 and 1 both need agent 0.
+  fixture k(3, {{0, 1, 1}, {1, 1, 1}, {2, 0, 3}});
+  for (std::size_t a : {1u, 2u}) k.u(a, 0).reset(), k.u(a, 1).reset();
+  EXPECT_EQ(k.refusal().why, reason::pairs_contradict);
+}
+
+TEST(no_allocation, a_precondition_that_never_holds_and_negative_utility) {
+  fixture f(3, {{0, 1, 3}});
+  f.plan().pre = truth::never;
+  EXPECT_EQ(f.refusal().why, reason::precondition_never_holds);
+  fixture g(3, {{0, 2, 3}});
+  for (std::size_t a = 0; a < 3; ++a) g.u(a, 0) = -1.0 - static_cast<double>(a);
+  EXPECT_EQ(g.refusal().why, reason::negative_utility);
+  EXPECT_EQ(g.refusal().value, -3.0);
+}
+
+TEST(no_allocation, a_budget_that_is_spent_is_no_proof) {
+  fixture f(6, {{0, 1, 3}, {1, 1, 3}});
+  f.plan().pre = truth::never;
+  EXPECT_EQ(f.refusal({5}).why, reason::search_incomplete);
+  built const b(f.raw);
+  EXPECT_FALSE(best_allocation(rota::problem{b.type, b.team, b.beliefs}, f.work, {5}).error().proved());
+  EXPECT_EQ(f.refusal({0}).why, reason::search_incomplete);
+}
+
+TEST(no_allocation, what_is_no_utility_is_named) {
+  fixture f(2, {{0, 2, 2}});
+  f.u(1, 0) = std::nan("");
+  auto const r = f.refusal();
+  EXPECT_EQ(r.why, reason::utility_refused);
+  EXPECT_EQ(r.fault, rota::utility_fault::not_a_number);
+  EXPECT_EQ(r.agent, names::agent(1));
+  EXPECT_EQ(r.task, names::task(0));
+  // Where the team can do without the pair it does, and still says so.
+  f.plan().tasks[0].min = 1;
+  auto const s = f.solve();
+  ASSERT_TRUE(s);
+  EXPECT_EQ(s->utility, 1.0);
+  ASSERT_TRUE(s->ignored);
+  EXPECT_EQ(s->ignored->why, rota::utility_fault::not_a_number);
+
+  fixture g(2, {{0, 1, 2}});
+  g.plan().general = true;
+  g.plan().offset = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(g.refusal().why, reason::utility_refused);
+  EXPECT_EQ(g.refusal().fault, rota::utility_fault::positive_infinity);
+}
+
+TEST(no_allocation, functions_that_throw) {
+  rota::plan_description<names, rota::no_beliefs> d;
+  d.tasks = {{names::task(0), {1, 2}, {}}};
+  d.utility = rota::additive_utility<names, rota::no_beliefs>([](auto, auto, auto) { return 1.0; });
+  d.precondition = [](auto, auto) -> bool { throw 1; };
+  rota::team<names> const team{names::agent(1), names::agent(2)};
+  rota::workspace work;
+  auto solve = [&] {
+    auto const type = plan_type_t::make(names::plan_type::only, {plan_t::make(d).value()}).value();
+    return best_allocation(rota::problem{type, team, rota::no_beliefs{}}, work);
+  };
+  EXPECT_EQ(solve().error().plans[0].why, reason::precondition_threw);
+  d.precondition = {};
+  d.utility =
+      rota::additive_utility<names, rota::no_beliefs>([](auto, auto, auto) -> std::optional<double> { throw 1; });
+  EXPECT_EQ(solve().error().plans[0].fault, rota::utility_fault::threw);
+  d.utility = rota::general_utility<names, rota::no_beliefs>{[](auto, auto) -> double { throw 1; }, {}};
+  EXPECT_EQ(solve().error().plans[0].fault, rota::utility_fault::threw);
+}
+
+TEST(best_allocation, nobody_and_strangers) {
+  fixture f(0, {{0, 0, 2}});
+  auto const nobody = f.solve();
+  ASSERT_TRUE(nobody);
+  EXPECT_TRUE(nobody->atoms.empty());
+  EXPECT_EQ(nobody->plan, names::plan(1));
+  EXPECT_EQ(nobody->utility, 0.0);
+  f.plan().tasks[0].min = 1;
+  EXPECT_EQ(f.refusal().why, reason::too_few_agents);
+  // A participant the team does not know gets nothing.
+  fixture g(1, {{0, 0, 2}});
+  g.raw.participants = {0, 5};
+  ASSERT_TRUE(g.solve());
+  EXPECT_EQ(g.solve()->atoms.size(), 1u);
+}
+
+TEST(best_allocation, of_a_plan_type_is_its_best_plan_not_its_first) {  // ALICA's defect 1
+  fixture f(2, {{0, 1, 1}});
+  raw_plan better = f.plan();
+  better.id = 3;
+  better.u[1][0] = 5.0;
+  raw_plan middle = f.plan();
+  middle.id = 2;
+  middle.u[0][0] = 3.0;
+  f.raw.plans = {f.raw.plans[0], better, middle};
+  auto const s = f.solve();
+  ASSERT_TRUE(s);
+  EXPECT_EQ(s->plan, names::plan(3));
+  EXPECT_EQ(s->utility, 5.0);
+  EXPECT_EQ(s->runner_up, (rota::runner_up<names>{names::plan(2), 3.0}));
+}
+
+TEST(best_allocation, additive_is_polynomial) {  // ALICA's defect 7: 16 x 8 took it more than a minute
+  using V = rota::runtime_vocabulary;
+  for (auto [n, m] : {std::pair{16, 8}, std::pair{60, 10}, std::pair{300, 12}}) {
+    for (int levels : {1, 3, 1000}) {
+      rota::team<V> team;
+      for (int a = 0; a < n; ++a) team.add({static_cast<std::uint64_t>(a)});
+      rota::plan_description<V, rota::no_beliefs> d;
+      for (int t = 0; t < m; ++t)
+        d.tasks.push_back({{static_cast<std::uint64_t>(t)},
+                           {static_cast<std::uint32_t>(t % 3), static_cast<std::uint32_t>(2 + n / m)},
+                           {}});
+      d.utility = rota::additive_utility<V, rota::no_beliefs>([=](auto a, auto t, auto) -> std::optional<double> {
+        if ((a.value + t.value) % 11 == 0) return std::nullopt;
+        return static_cast<double>(dice(a.value * 1000 + t.value).below(levels) - (levels > 3 ? 300 : 0));
+      });
+      auto const type = rota::plan_type<V>::make({}, {rota::plan<V>::make(d).value()}).value();
+      rota::workspace work;
+      auto const s = best_allocation(rota::problem{type, team, rota::no_beliefs{}}, work);
+      ASSERT_TRUE(s);
+      EXPECT_TRUE(s->optimal);
+      auto const agents = static_cast<std::uint64_t>(n);
+      auto const slots = static_cast<std::uint64_t>(m + 1);
+      EXPECT_EQ(s->work.nodes, 0u);
+      EXPECT_LE(s->work.augmentations, agents + slots * 2);
+      EXPECT_LE(s->work.relaxations, 3 * agents * slots * (slots + agents));
+    }
+  }
+}
+
+}  // namespace
