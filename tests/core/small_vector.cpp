@@ -249,6 +249,23 @@ TEST(small_vector, insert_and_erase_return_the_place) {
   EXPECT_EQ(v, (rota::small_vector<int, 2>{2}));
 }
 
+TEST(small_vector, append_keeps_what_was_written_and_no_more) {
+  for (std::size_t had : {0u, 3u, 4u, 9u}) {
+    strings<4> v;
+    for (std::size_t i = 0; i < had; ++i) v.push_back(text(i));
+    strings<4> expected = v;
+    expected.push_back(text(20));
+    expected.push_back(text(21));
+    v.append(7, [](std::string* out) {
+      *out++ = text(20);
+      *out++ = text(21);
+      *out = text(22);  // taken back
+      return out;
+    });
+    EXPECT_EQ(v, expected) << "after " << had;
+  }
+}
+
 TEST(small_vector, allocates_only_past_its_inline_capacity) {
   auto const before = rota_test::allocation_count();
   rota::small_vector<int, 8> v;

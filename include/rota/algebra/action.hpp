@@ -39,16 +39,26 @@ template <ordered_atom Atom>
   });
 }
 
-/// e·C = (C ∖ e⁻) ∪ e⁺ where e is applicable, otherwise the least offending atom. C itself never changes.
+/// e·C = (C ∖ e⁻) ∪ e⁺ where e is applicable, otherwise the least offending atom.
 ///
-/// Laws: apply(diff(C, C′), C) = C′; apply({}, C) = C; where both sides exist, f·(e·C) = compose(e, f)·C. O(|e|·|C|).
+/// Laws: apply(diff(C, C′), C) = C′; apply({}, C) = C; where both sides exist, f·(e·C) = compose(e, f)·C. O(|e| + |C|).
 template <ordered_atom Atom>
-[[nodiscard]] constexpr result<atom_set<Atom>, inapplicable<Atom>> apply(event<Atom> const& e, atom_set<Atom> c) {
+[[nodiscard]] constexpr result<atom_set<Atom>, inapplicable<Atom>> apply(event<Atom> const& e,
+                                                                         atom_set<Atom> const& c) {
+  small_vector<Atom, 8> atoms;
+  auto const* kept = c.begin();
   for (signed_atom<Atom> const& x : e) {
-    bool const changed = x.value == sign::plus ? c.insert(x.atom) : c.erase(x.atom);
-    if (!changed) return refused{inapplicable<Atom>{x.atom}};
+    while (kept != c.end() && *kept < x.atom) atoms.push_back(*kept++);
+    bool const present = kept != c.end() && *kept == x.atom;
+    if (present != (x.value == sign::minus)) return refused{inapplicable<Atom>{x.atom}};
+    if (present) {
+      ++kept;
+    } else {
+      atoms.push_back(x.atom);
+    }
   }
-  return c;
+  for (; kept != c.end(); ++kept) atoms.push_back(*kept);
+  return atom_set<Atom>::from_ascending(std::move(atoms));
 }
 
 }  // namespace rota

@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <span>
+#include <utility>
 
 namespace rota {
 
@@ -64,12 +65,13 @@ public:
   /// A total order of sets (lexicographic), so that sets can be atoms and keys. It is not inclusion.
   friend constexpr auto operator<=>(atom_set const&, atom_set const&) = default;
 
-  template <ordered_atom A>
-  friend constexpr atom_set<A> unite(atom_set<A> const&, atom_set<A> const&);
-  template <ordered_atom A>
-  friend constexpr atom_set<A> intersect(atom_set<A> const&, atom_set<A> const&);
-  template <ordered_atom A>
-  friend constexpr atom_set<A> subtract(atom_set<A> const&, atom_set<A> const&);
+  /// The set of these atoms. @pre strictly ascending
+  [[nodiscard]] static constexpr atom_set from_ascending(small_vector<Atom, 8> atoms) {
+    for (std::size_t i = 1; i < atoms.size(); ++i) ROTA_ASSERT(atoms[i - 1] < atoms[i]);
+    atom_set c;
+    c.atoms_ = std::move(atoms);
+    return c;
+  }
 
 private:
   small_vector<Atom, 8> atoms_;
@@ -78,23 +80,23 @@ private:
 /// C ∪ D. O(|C| + |D|), as the three below.
 template <ordered_atom Atom>
 [[nodiscard]] constexpr atom_set<Atom> unite(atom_set<Atom> const& c, atom_set<Atom> const& d) {
-  atom_set<Atom> r;
-  std::set_union(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(r.atoms_));
-  return r;
+  small_vector<Atom, 8> atoms;
+  std::set_union(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(atoms));
+  return atom_set<Atom>::from_ascending(std::move(atoms));
 }
 /// C ∩ D.
 template <ordered_atom Atom>
 [[nodiscard]] constexpr atom_set<Atom> intersect(atom_set<Atom> const& c, atom_set<Atom> const& d) {
-  atom_set<Atom> r;
-  std::set_intersection(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(r.atoms_));
-  return r;
+  small_vector<Atom, 8> atoms;
+  std::set_intersection(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(atoms));
+  return atom_set<Atom>::from_ascending(std::move(atoms));
 }
 /// C ∖ D.
 template <ordered_atom Atom>
 [[nodiscard]] constexpr atom_set<Atom> subtract(atom_set<Atom> const& c, atom_set<Atom> const& d) {
-  atom_set<Atom> r;
-  std::set_difference(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(r.atoms_));
-  return r;
+  small_vector<Atom, 8> atoms;
+  std::set_difference(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(atoms));
+  return atom_set<Atom>::from_ascending(std::move(atoms));
 }
 /// C ⊆ D.
 template <ordered_atom Atom>

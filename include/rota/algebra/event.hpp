@@ -14,10 +14,12 @@ enum class sign : std::int8_t { minus = -1, zero = 0, plus = 1 };
 
 [[nodiscard]] constexpr int to_int(sign s) noexcept { return static_cast<int>(s); }
 
+/// n clamped into [−1, +1].
+[[nodiscard]] constexpr sign clamp_to_sign(int n) noexcept { return static_cast<sign>((n > 0) - (n < 0)); }
+
 /// clamp(s + t) into [−1, +1]: Def. 4 at one atom. Commutative, with identity and unique inverses; not associative.
 [[nodiscard]] constexpr sign clamped_sum(sign s, sign t) noexcept {
-  int const sum = to_int(s) + to_int(t);
-  return sum > 0 ? sign::plus : sum < 0 ? sign::minus : sign::zero;
+  return clamp_to_sign(to_int(s) + to_int(t));
 }
 
 /// One entry of an event. The sign of a stored entry is never zero.
@@ -107,6 +109,9 @@ public:
     return e;
   }
 
+  template <ordered_atom A>
+  friend constexpr event<A> compose(event<A> const&, event<A> const&);
+
 private:
   static constexpr event single(Atom const& x, sign s) {
     event e;
@@ -114,10 +119,10 @@ private:
     return e;
   }
   constexpr atom_set<Atom> part(sign s) const {
-    atom_set<Atom> r;
+    small_vector<Atom, 8> atoms;
     for (entry const& x : entries_)
-      if (x.value == s) r.insert(x.atom);
-    return r;
+      if (x.value == s) atoms.push_back(x.atom);
+    return atom_set<Atom>::from_ascending(std::move(atoms));
   }
 
   small_vector<entry, 8> entries_;
@@ -126,23 +131,24 @@ private:
 /// e ∘ f of Def. 4, to the letter: at each atom the clamped sum. Brackets matter, so this is no operator. O(|e| + |f|).
 template <ordered_atom Atom>
 [[nodiscard]] constexpr event<Atom> compose(event<Atom> const& e, event<Atom> const& f) {
-  small_vector<signed_atom<Atom>, 8> entries;
-  entries.reserve(e.size() + f.size());
-  auto x = e.begin();
-  auto y = f.begin();
-  while (x != e.end() && y != f.end()) {
-    if (x->atom < y->atom) {
-      entries.push_back(*x++);
-    } else if (y->atom < x->atom) {
-      entries.push_back(*y++);
-    } else {
-      if (sign const s = clamped_sum(x->value, y->value); s != sign::zero) entries.push_back({x->atom, s});
-      ++x, ++y;
+  event<Atom> r;
+  r.entries_.append(e.size() + f.size(), [&](signed_atom<Atom>* out) {
+    auto const* x = e.begin();
+    auto const* y = f.begin();
+    auto const* const x_end = e.end();
+    auto const* const y_end = f.end();
+    while (x != x_end && y != y_end) {  // no branch on the order of two atoms, which nothing predicts
+      bool const from_e = !(y->atom < x->atom);
+      bool const from_f = !(x->atom < y->atom);
+      int const sum = from_e * to_int(x->value) + from_f * to_int(y->value);
+      *out = {(from_e ? x : y)->atom, clamp_to_sign(sum)};
+      out += sum != 0;
+      x += from_e;
+      y += from_f;
     }
-  }
-  for (; x != e.end(); ++x) entries.push_back(*x);
-  for (; y != f.end(); ++y) entries.push_back(*y);
-  return event<Atom>::from_entries(std::move(entries));
+    return std::copy(y, y_end, std::copy(x, x_end, out));
+  });
+  return r;
 }
 
 /// (ϑ⁻, ϑ⁺): the only event that composes with e to the identity. O(|e|).

@@ -93,6 +93,13 @@ public:
     if (size_ == capacity_) reserve(capacity_ < 4 ? 8 : 2 * capacity_);
     data()[size_++] = std::move(item);
   }
+  /// Appends what `write(first)` puts into the places from `first` on: at most `most` elements, whose end it returns.
+  /// For loops that cannot afford a capacity check per element.
+  template <std::invocable<T*> F>
+  constexpr void append(std::size_t most, F&& write) {
+    reserve(size_ + most);
+    size_ = static_cast<std::size_t>(write(end()) - data());
+  }
   /// @pre `!empty()`
   constexpr void pop_back() noexcept {
     ROTA_ASSERT(size_ > 0);
