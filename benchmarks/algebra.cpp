@@ -86,11 +86,11 @@ event random_event(std::mt19937_64& random, std::size_t n) {
 
 using pair_of_events = std::pair<event, event>;
 
-/// 256 pairs, fewer where they would not fit the cache: many entries are hard to predict at their first repetition too.
+/// So many pairs that the branch predictor cannot learn them, and few enough to stay in the cache.
 std::vector<pair_of_events> event_pairs(std::size_t n) {
   auto random = seeded();
   std::vector<pair_of_events> pairs;
-  for (std::size_t i = 0; i < std::min<std::size_t>(256, (std::size_t{1} << 18) / (4 * n)); ++i) {
+  for (std::size_t i = 0; i < std::min<std::size_t>(1024, (std::size_t{1} << 18) / (4 * n)); ++i) {
     auto e = random_event(random, n);
     pairs.emplace_back(std::move(e), random_event(random, n));
   }
