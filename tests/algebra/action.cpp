@@ -25,59 +25,6 @@ std::size_t offending_atoms(event const& e, atom_set const& c) {
       std::count_if(target.begin(), target.end(), [](auto const& x) { return x.count != 1; }));
 }
 
-/// An event and a set, applicable about as often as not: the flips of some atoms, in half the cases with wrong signs
-/// thrown in.
-struct attempt {
-  event e;
-  atom_set c;
-};
-std::ostream& operator<<(std::ostream& out, attempt const& t) { return out << t.e << " at " << t.c; }
-
-event flips(std::vector<int> const& flipped, atom_set const& c) {
-  std::vector<int> signs;
-  for (std::size_t i = 0; i < flipped.size(); ++i)
-    signs.push_back(flipped[i] == 0 ? 0 : c.contains(nth(i)) ? -flipped[i] : flipped[i]);
-  return event_of(signs);
-}
-rc::Gen<attempt> attempts() {
-  return rc::gen::mapcat(rc::gen::pair(atom_count(), rc::gen::element(-1, -1, 1)),
-                         [](std::pair<std::size_t, int> const& p) {
-                           auto const [n, low] = p;
-                           return rc::gen::map(rc::gen::tuple(values(n, low, 1), set_over(n)), [](auto const& t) {
-                             return attempt{flips(std::get<0>(t), std::get<1>(t)), std::get<1>(t)};
-                           });
-                         });
-}
-
-/// Consecutively applicable events, from `start` on.
-struct history {
-  atom_set start;
-  std::vector<event> run;
-};
-std::ostream& operator<<(std::ostream& out, history const& h) {
-  out << h.start;
-  for (auto const& e : h.run) out << " " << e;
-  return out;
-}
-rc::Gen<history> histories() {
-  auto const sizes =
-      rc::gen::pair(rc::gen::element<std::size_t>(1, 2, 3, 6), rc::gen::element<std::size_t>(1, 3, 4, 5, 6));
-  return rc::gen::mapcat(sizes, [](std::pair<std::size_t, std::size_t> const& p) {
-    auto const [n, length] = p;
-    auto const flipped = rc::gen::container<std::vector<std::vector<int>>>(length, values(n, 0, 1, {0, 1, 2}));
-    return rc::gen::map(rc::gen::pair(set_over(n), flipped), [](auto const& t) {
-      history h{t.first, {}};
-      auto members = h.start;
-      for (auto const& f : t.second) {
-        h.run.push_back(flips(f, members));
-        // The state is followed by std-like insert and erase, not by `apply`, which is under test.
-        for (auto const& x : h.run.back()) x.value == sign::plus ? members.insert(x.atom) : members.erase(x.atom);
-      }
-      return h;
-    });
-  });
-}
-
 delta sum_of(std::vector<event> const& list) {
   delta sum;
   for (auto const& e : list) sum += delta(e);
@@ -245,9 +192,7 @@ TEST(run, histories_alternate_often_and_unrestricted_sequences_break_the_theorem
   constexpr int cases = 1000;
   int alternating = 0;
   int broken = 0;
-  auto const unrestricted = rc::gen::mapcat(rc::gen::element<std::size_t>(3, 4, 5, 6), [](std::size_t length) {
-    return rc::gen::container<std::vector<event>>(length, event_over(2));
-  });
+  auto const unrestricted = events_over(2, 5);
   for (int k = 0; k < cases; ++k) {
     auto const h = sample(histories(), k);
     // Some atom comes, goes and comes again (or the other way round).

@@ -1,5 +1,7 @@
 #pragma once
 /// rapidcheck generators over `universe`: few atoms, so that they collide; never tamed by the growing size.
+///
+/// Defined in a unit of their own: what generators are made of costs more to compile than the properties.
 
 #include "algebra/universe.hpp"
 
@@ -7,36 +9,49 @@
 #include <rapidcheck/gtest.h>
 
 #include <cstddef>
-#include <utility>
+#include <cstdint>
+#include <ostream>
 #include <vector>
 
 namespace universe {
 
-template <class T>
-rc::Gen<T> untamed(rc::Gen<T> gen) {
-  return rc::gen::resize(100, std::move(gen));
-}
-
 /// How many atoms there are. Twenty-four make events leave their inline storage of eight entries.
-inline rc::Gen<std::size_t> atom_count() { return rc::gen::element<std::size_t>(1, 2, 3, 6, 6, 24); }
+rc::Gen<std::size_t> atom_count();
+
+/// Uniform in {low, …, high}.
+rc::Gen<int> integer(int low, int high);
+rc::Gen<std::vector<int>> integers(std::size_t count, int low, int high);
 
 /// For each atom one of {low, …, high}, zero with a probability that differs from case to case, often never.
-inline rc::Gen<std::vector<int>> values(std::size_t atoms, int low, int high,
-                                        std::vector<std::size_t> zeros_per_two = {0, 1, 2, 6}) {
-  std::vector<int> nonzero;
-  for (int x = low; x <= high; ++x)
-    if (x != 0) nonzero.push_back(x);
-  return rc::gen::mapcat(rc::gen::elementOf(std::move(zeros_per_two)), [=](std::size_t zeros) {
-    return rc::gen::container<std::vector<int>>(
-        atoms, rc::gen::weightedOneOf<int>({{zeros, rc::gen::just(0)}, {2, rc::gen::elementOf(nonzero)}}));
-  });
-}
+rc::Gen<std::vector<int>> values(std::size_t atoms, int low, int high);
 
-inline rc::Gen<event> event_over(std::size_t atoms) { return rc::gen::map(values(atoms, -1, 1), event_of); }
-inline rc::Gen<atom_set> set_over(std::size_t atoms) { return rc::gen::map(values(atoms, 0, 1), set_of); }
-inline rc::Gen<delta> delta_over(std::size_t atoms) {
-  return rc::gen::map(values(atoms, -4, 4), delta_of<std::int64_t>);
-}
+rc::Gen<event> event_over(std::size_t atoms);
+rc::Gen<atom_set> set_over(std::size_t atoms);
+rc::Gen<delta> delta_over(std::size_t atoms);
+rc::Gen<std::vector<event>> events_over(std::size_t atoms, std::size_t count);
+
+/// Three events that associate about as often as not.
+struct triple {
+  event e, f, g;
+};
+rc::Gen<triple> triples();
+std::ostream& operator<<(std::ostream& out, triple const& t);
+
+/// An event and a set, applicable about as often as not: flips of some atoms, often with wrong signs thrown in.
+struct attempt {
+  event e;
+  atom_set c;
+};
+rc::Gen<attempt> attempts();
+std::ostream& operator<<(std::ostream& out, attempt const& t);
+
+/// Consecutively applicable events, from `start` on.
+struct history {
+  atom_set start;
+  std::vector<event> run;
+};
+rc::Gen<history> histories();
+std::ostream& operator<<(std::ostream& out, history const& h);
 
 /// The k-th of a fixed sequence of generated values: for counting how often a generator reaches what it should.
 template <class T>
