@@ -38,5 +38,7 @@ using chosen_command = std::function<outcome()>;
 /// Each adds one subcommand to the program: its options, and a callback that sets the chosen command. One file each.
 void add_check(CLI::App& program, chosen_command& chosen);
 void add_allocate(CLI::App& program, chosen_command& chosen);
+void add_simulate(CLI::App& program, chosen_command& chosen);
+void add_reproduce(CLI::App& program, chosen_command& chosen);
 
 }  // namespace rota::cli

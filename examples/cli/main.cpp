@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
     chosen_command chosen;
     add_check(program, chosen);
     add_allocate(program, chosen);
+    add_simulate(program, chosen);
+    add_reproduce(program, chosen);
     try {
       program.parse(argc, argv);
     } catch (CLI::ParseError const& e) {

@@ -9,9 +9,10 @@ namespace rota::sim {
 
 /// How the clocks and loops of robots differ from each other.
 struct clock_options {
-  duration loop = milliseconds(30);   ///< mean length of the deliberation loop
-  std::int64_t loop_spread_ppm = 5000;  ///< each robot's loop is longer or shorter by up to this: nothing stays in phase
-  std::int64_t drift_ppm = 50;        ///< each robot's clock is fast or slow by up to this
+  duration loop = milliseconds(30);  ///< mean length of the deliberation loop
+  std::int64_t loop_spread_ppm =
+      5000;                     ///< each robot's loop is longer or shorter by up to this: nothing stays in phase
+  std::int64_t drift_ppm = 50;  ///< each robot's clock is fast or slow by up to this
 };
 
 /// One robot's own clock, of unknown origin and slightly wrong speed, and its phases.

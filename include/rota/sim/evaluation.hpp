@@ -42,11 +42,11 @@ template <class Monitor = cycle_monitor<names>>
 
 /// The check figures of detection, for two robots that begin to fight, over random phases. Means, in ms.
 struct timing_figures {
-  std::uint64_t samples = 0;      ///< robots that found two and four subsequent cycles
-  double two_cycles_ms = 0;       ///< at one agent, from applying the first e_m to the second e_r
-  double four_cycles_ms = 0;      ///< to the fourth e_r
-  double two_detected_ms = 0;     ///< from the time both act in conflict to the first robot with two cycles
-  double four_detected_ms = 0;    ///< to the first robot with four
+  std::uint64_t samples = 0;    ///< robots that found two and four subsequent cycles
+  double two_cycles_ms = 0;     ///< at one agent, from applying the first e_m to the second e_r
+  double four_cycles_ms = 0;    ///< to the fourth e_r
+  double two_detected_ms = 0;   ///< from the time both act in conflict to the first robot with two cycles
+  double four_detected_ms = 0;  ///< to the first robot with four
 };
 
 /// How they are measured: no noise, no loss, and a resolution that only watches.

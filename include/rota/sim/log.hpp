@@ -34,7 +34,7 @@ struct log_record {
   std::size_t other = 0;
   std::uint32_t cycles = 0;
   bool detected = false;
-  bool leading = false;     ///< whether the robot leads, afterwards
+  bool leading = false;  ///< whether the robot leads, afterwards
   bool superseded = false;
   std::optional<claim_outcome> claim{};
 };

@@ -133,7 +133,8 @@ private:
     if (t <= now_) return;
     if (stale_) {
       stale_ = false;
-      bool const conflict = std::adjacent_find(beliefs_.begin(), beliefs_.end(), std::not_equal_to<>()) != beliefs_.end();
+      bool const conflict =
+          std::adjacent_find(beliefs_.begin(), beliefs_.end(), std::not_equal_to<>()) != beliefs_.end();
       if (conflict != conflict_) turn(conflict, now_);
     }
     if (now_ < begin_ && begin_ <= t && conflict_) episode_ = begin_;

@@ -24,8 +24,7 @@ class network {
 public:
   using delays = small_vector<duration, 2>;
 
-  network(network_options const& options, std::size_t robots, std::uint64_t seed)
-      : options_(options), robots_(robots) {
+  network(network_options const& options, std::size_t robots, std::uint64_t seed) : options_(options), robots_(robots) {
     links_.reserve(robots * robots);
     for (std::size_t i = 0; i < robots * robots; ++i) links_.push_back(engine_for(seed, stream::network, i));
   }

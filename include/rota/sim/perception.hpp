@@ -11,11 +11,14 @@ namespace rota::sim {
 
 /// How robots see. The numbers are those of an omnidirectional camera with an imperfect distance calibration.
 struct sensor_options {
-  micrometres exact_distance = metres(3);  ///< shorter distances to the ball are underestimated, longer ones overestimated,
-  std::int64_t bias_permille = 400;        ///< by less than this
-  micrometres ball_noise = metres(0.01);   ///< standard deviation of the seen ball in x and y, at distance 0
-  std::int64_t ball_noise_permille = 20;   ///< added to it, of the distance
-  micrometres mate_noise = metres(0.03);   ///< of a team mate's reported place, in x and y
+  micrometres exact_distance =
+      metres(3);                     ///< shorter distances to the ball are underestimated, longer ones overestimated,
+  std::int64_t bias_permille = 400;  ///< by less than this
+  micrometres ball_noise = metres(0.01);  ///< standard deviation of the seen ball in x and y, at distance 0
+  std::int64_t ball_noise_permille = 20;  ///< added to it, of the distance
+  micrometres mate_noise = metres(0.03);  ///< of a team mate's reported place, in x and y
+  std::int64_t tracking =
+      4;  ///< robots track what they see: an error moves by 1/4 of the way to that of each new frame
 };
 
 /// The distance at which a ball `d` away is seen: g(d) = d + bias · d · (d − d₀) / (d + d₀). @pre 0 ≤ d ≤ 60 m
@@ -41,7 +44,9 @@ inline void know(world_state const& truth, perceived& into) {
 class sensor {
 public:
   sensor(sensor_options const& options, std::size_t self, std::uint64_t seed)
-      : options_(options), self_(self), engine_(engine_for(seed, stream::perception, self)) {}
+      : options_(options), self_(self), engine_(engine_for(seed, stream::perception, self)) {
+    ROTA_ASSERT(options.tracking >= 1);
+  }
 
   /// Sees the ball relative to itself, so that a wrong pose displaces it; hears from its mates where they believe to be.
   /// Draws equally often whatever it sees. O(robots).
@@ -52,11 +57,12 @@ public:
     micrometres const d = length(sight);
     micrometres const spread = options_.ball_noise + d * options_.ball_noise_permille / 1000;
     point const seen = d == 0 ? sight : rescaled(sight, seen_distance(options_, d), d);
-    into.ball = self + seen + wobble(spread);
+    into.ball = self + seen + track(ball_error_, spread);
     into.robots.resize(truth.robots.size());
+    mate_errors_.resize(truth.robots.size());
     for (std::size_t i = 0; i < truth.robots.size(); ++i) {
       robot_state const& r = truth.robots[i];
-      into.robots[i] = i == self_ ? self : r.position + r.pose_error + wobble(options_.mate_noise);
+      into.robots[i] = i == self_ ? self : r.position + r.pose_error + track(mate_errors_[i], options_.mate_noise);
       note(into.robots[i]);
     }
     note(into.ball);
@@ -66,9 +72,11 @@ public:
   [[nodiscard]] std::uint64_t digest() const noexcept { return digest_; }
 
 private:
-  point wobble(micrometres sigma) {
-    micrometres const x = noise(engine_, sigma);
-    return {x, noise(engine_, sigma)};
+  /// The error of a tracked thing after one more frame, whose own error has deviation `sigma`.
+  point track(point& error, micrometres sigma) {
+    error.x += (noise(engine_, sigma) - error.x) / options_.tracking;
+    error.y += (noise(engine_, sigma) - error.y) / options_.tracking;
+    return error;
   }
   void note(point p) noexcept {
     digest_ = scatter(digest_ ^ static_cast<std::uint64_t>(p.x)) ^ static_cast<std::uint64_t>(p.y);
@@ -77,6 +85,8 @@ private:
   sensor_options options_;
   std::size_t self_;
   random_engine engine_;
+  point ball_error_;
+  std::vector<point> mate_errors_;
   std::uint64_t digest_ = 0;
 };
 

@@ -31,12 +31,11 @@ struct plan_sketch {
   double hysteresis = 0;
 };
 
-/// How much a task pays. Attack: w_A · (1 − |agent − ball| / diagonal of the field). Every other task:
-/// w_O · (1 − |agent − home of the task| / diagonal). So the robot nearest to the ball attacks, unless it is needed
-/// elsewhere sixteen times as much. Never negative.
+/// How much a task pays, in metres: Attack the diagonal of the field minus the agent's distance to the ball; every other
+/// task a fraction of the diagonal minus the agent's distance to the home of the task. So the robot nearest to the ball
+/// attacks, unless that costs the others sixteen times as many metres; a plan's hysteresis is metres saved.
 struct pay_options {
-  std::int64_t attack = std::int64_t{1} << 20;  ///< in units of 2^-20: exact in binary
-  std::int64_t other = std::int64_t{1} << 16;
+  std::int64_t other = 16;  ///< every other task pays a sixteenth
 };
 
 /// A plan type ready to be played: the plans of files, with soccer utilities read from each robot's own perception.
@@ -70,9 +69,10 @@ struct playbook {
   return homes[k % (sizeof homes / sizeof *homes)];
 }
 
-/// max · (1 − d / diagonal), at least 0, as an exact number: no rounding of a compiler decides who attacks.
-[[nodiscard]] constexpr double pay(std::int64_t max, micrometres d) noexcept {
-  return static_cast<double>(max * std::max<micrometres>(field_diagonal - d, 0) / field_diagonal) / 1048576.0;
+/// (diagonal − d) / divisor in metres, at least 0, in whole units of 2^-20: no rounding of a compiler decides who attacks.
+[[nodiscard]] constexpr double pay(micrometres d, std::int64_t divisor) noexcept {
+  constexpr std::int64_t unit = 1 << 20;
+  return static_cast<double>(std::max<micrometres>(field_diagonal - d, 0) * unit / metres(1) / divisor) / unit;
 }
 
 /// The utility described at `pay_options`. Robots are called 1, 2, 3, …
@@ -87,14 +87,14 @@ struct playbook {
   return [homes = std::move(homes), w](names::agent a, names::task t, perceived const& seen) -> std::optional<double> {
     point const at = seen.robots[a.value - 1];
     for (auto const& [task, home] : homes)
-      if (task == t) return home ? pay(w.other, distance(at, *home)) : pay(w.attack, distance(at, seen.ball));
+      if (task == t) return home ? pay(distance(at, *home), w.other) : pay(distance(at, seen.ball), 1);
     return std::nullopt;
   };
 }
 
 /// The plan type with these plans, or what is wrong with them in words.
-[[nodiscard]] inline result<playbook, std::string> make_playbook(names::plan_type type, std::vector<plan_sketch> sketches,
-                                                                 pay_options const& w = {}) {
+[[nodiscard]] inline result<playbook, std::string>
+make_playbook(names::plan_type type, std::vector<plan_sketch> sketches, pay_options const& w = {}) {
   std::sort(sketches.begin(), sketches.end(), [](plan_sketch const& a, plan_sketch const& b) { return a.id < b.id; });
   std::vector<plan<names, perceived>> plans;
   std::vector<names::task> attacking;
@@ -107,7 +107,8 @@ struct playbook {
     d.team_size = s.team_size;
     d.hysteresis = s.hysteresis;
     auto made = plan<names, perceived>::make(std::move(d));
-    if (!made) return refused{"plan " + s.name + " lists a task twice, or its utility threshold is no number from 0 on"};
+    if (!made)
+      return refused{"plan " + s.name + " lists a task twice, or its utility threshold is no number from 0 on"};
     plans.push_back(*std::move(made));
     attacking.push_back(attack_task(s));
   }

@@ -42,7 +42,8 @@ enum class stream : std::uint64_t { clock = 1, world, perception, network };
 /// One draw and integers only. The normal distribution needs logarithms, whose last bits differ between C libraries.
 [[nodiscard]] inline std::int64_t noise(random_engine& engine, std::int64_t sigma) {
   std::uint64_t const draw = engine();
-  auto const sum = static_cast<std::int64_t>((draw & 0xffff) + (draw >> 16 & 0xffff) + (draw >> 32 & 0xffff) + (draw >> 48));
+  auto const sum =
+      static_cast<std::int64_t>((draw & 0xffff) + (draw >> 16 & 0xffff) + (draw >> 32 & 0xffff) + (draw >> 48));
   constexpr std::int64_t mean = 131070;
   constexpr std::int64_t deviation = 37837;  // sqrt(4 (2^32 - 1) / 12)
   return (sum - mean) * sigma / deviation;

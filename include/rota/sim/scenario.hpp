@@ -53,16 +53,16 @@ struct world_options {
 
   // Rounds.
   duration round = seconds(30);
-  extent fight{metres(0.5), metres(0.7)};      ///< distances to the ball of two that fight for it; 120° to 180° apart
-  extent near_ball{metres(0.6), metres(1.5)};  ///< of the rightful attacker in the other scenarios
-  extent phantom{metres(1.0), metres(2.0)};    ///< of a phantom ball from the robot it lies near
-  extent pose_error{metres(2.5), metres(5.0)}; ///< of a mislocalised robot
-  micrometres clearance = metres(3.0);         ///< everybody else keeps this far from the ball
-  micrometres sway = metres(0.05);             ///< nobody stands quite still
+  extent fight{metres(0.5), metres(0.7)};       ///< distances to the ball of two that fight for it; 120° to 180° apart
+  extent near_ball{metres(0.6), metres(1.5)};   ///< of the rightful attacker in the other scenarios
+  extent phantom{metres(1.0), metres(2.0)};     ///< of a phantom ball from the robot it lies near
+  extent pose_error{metres(2.5), metres(5.0)};  ///< of a mislocalised robot
+  micrometres clearance = metres(3.0);          ///< everybody else keeps this far from the ball
+  micrometres sway = metres(0.05);              ///< nobody stands quite still
 
   // Play.
-  double kicks_per_minute = 12;      ///< the ball is kicked somewhere, and changes hands with each second kick on average
-  double kick_speed = 4.0;           ///< metres per second, as all speeds
+  double kicks_per_minute = 12;  ///< the ball is kicked somewhere, and changes hands with each second kick on average
+  double kick_speed = 4.0;       ///< metres per second, as all speeds
   double dribble_speed = 1.0;
   double robot_speed = 3.0;
   micrometres keep_own = metres(0.55);    ///< how close our nearest robot stays to a ball that is ours,

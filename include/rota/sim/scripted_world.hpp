@@ -49,9 +49,7 @@ private:
 
   [[nodiscard]] std::size_t robots() const noexcept { return bodies_.size(); }
   [[nodiscard]] micrometres draw(extent e) { return uniform(engine_, e.low, e.high); }
-  [[nodiscard]] micrometres per_tick(double speed) const {
-    return metres(speed) / (seconds(1).ns / options_.tick.ns);
-  }
+  [[nodiscard]] micrometres per_tick(double speed) const { return metres(speed) / (seconds(1).ns / options_.tick.ns); }
   [[nodiscard]] point direction() {
     for (;;) {
       point const v{uniform(engine_, -1000, 1000), uniform(engine_, -1000, 1000)};

@@ -43,8 +43,14 @@ public:
       robot_clock const clock(options.clock, options.agent.message_period, engine);
       agent_options mine = options.agent;
       mine.first_message = clock.first_message();
-      robots_.push_back({clock, agent_type(members_.agents()[i], members_.agents(), mine),
-                         sensor(options.sensor, i, options.seed), {}, clock.first_loop(), never, 0});
+      robots_.push_back({clock,
+                         agent_type(members_.agents()[i], members_.agents(), mine),
+                         sensor(options.sensor, i, options.seed),
+                         {},
+                         clock.first_loop(),
+                         {},
+                         never,
+                         0});
     }
   }
 
@@ -88,9 +94,10 @@ private:
     agent_type mind;
     sensor eyes;
     perceived belief;
-    instant next_loop;          // on its own clock
-    instant wakeup;             // the transmission that counts; others in the queue are void
-    std::uint64_t reign;        // the number of the claim it leads with, or 0
+    instant next_loop;    // on its own clock
+    instant due;          // what the wakeup is for, on its own clock
+    instant wakeup;       // the transmission that counts, or never; others in the queue are void
+    std::uint64_t reign;  // the number of the claim it leads with, or 0
   };
 
   struct entry {
@@ -189,10 +196,11 @@ private:
       send(i, *std::move(said));
       tell(observe, i, plan ? happening::said_plan : happening::said_claim, {});
     }
-    instant const due = r.clock.global(std::max(r.mind.next_due(), local + nanoseconds(1)));
-    if (due >= r.wakeup) return;
-    r.wakeup = due;
-    push(due, kind::transmission, i);
+    instant const due = std::max(r.mind.next_due(), local + nanoseconds(1));
+    if (r.wakeup != never && due >= r.due) return;
+    r.due = due;
+    r.wakeup = r.clock.global(due);
+    push(r.wakeup, kind::transmission, i);
   }
 
   void send(std::size_t from, message<names> content) {

@@ -31,17 +31,17 @@ concept world = std::copyable<W> && requires(W w, W const& c, instant t) {
   { c.state() } -> std::same_as<world_state const&>;
 };
 
-/// Where a team of up to eleven lines up: own half to the left.
+inline constexpr std::size_t max_robots = 11;
+
+/// Where a team lines up: own half to the left. @pre robot < max_robots
 [[nodiscard]] inline point formation_spot(std::size_t robot) {
-  constexpr point spots[] = {{metres(-7), metres(0)},   {metres(-3), metres(2.5)},  {metres(-3), metres(-2.5)},
-                             {metres(2.5), metres(3.5)}, {metres(2.5), metres(-3.5)}, {metres(0), metres(0)},
-                             {metres(-5), metres(4)},   {metres(-5), metres(-4)},   {metres(6), metres(1.5)},
-                             {metres(6), metres(-1.5)}, {metres(-1), metres(5)}};
-  constexpr std::size_t count = sizeof spots / sizeof *spots;
-  ROTA_ASSERT(robot < count);
+  constexpr point spots[max_robots] = {
+      {metres(-7), metres(0)},     {metres(-3), metres(2.5)}, {metres(-3), metres(-2.5)}, {metres(2.5), metres(3.5)},
+      {metres(2.5), metres(-3.5)}, {metres(0), metres(0)},    {metres(-5), metres(4)},    {metres(-5), metres(-4)},
+      {metres(6), metres(1.5)},    {metres(6), metres(-1.5)}, {metres(-1), metres(5)}};
+  ROTA_ASSERT(robot < max_robots);
   return spots[robot];
 }
-inline constexpr std::size_t max_robots = 11;
 
 /// Two robots and a still ball. Until `begin` one is near it and both agree; from then on both are equally close, on
 /// opposite sides, and each sees itself as the closer one.
