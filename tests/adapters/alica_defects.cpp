@@ -182,6 +182,8 @@ TEST_P(alica_defects, is_one_clear_error) {
   EXPECT_NE(errors[0].reason.find(d.reason), std::string::npos) << errors[0].reason;
   EXPECT_TRUE(!d.id || errors[0].id == d.id) << errors[0].reason;
   EXPECT_LT(errors[0].reason.size(), 300u);
+  EXPECT_LT(errors[0].place.size(), 150u);
+  EXPECT_TRUE(!errors[0].place.empty() || d.reason == "empty") << "a place, where there is one";
   ASSERT_EQ(m.plans.size(), 1u);
   EXPECT_EQ(m.plans[0].name, "Sound");
   EXPECT_EQ(m.tasks.size(), 2u);

@@ -34,13 +34,14 @@ public:
   bool number_float(number_float_t, string_t const&) { return value(); }
   bool string(string_t const&) { return value(); }
   bool binary(binary_t const&) { return value(); }
-  bool start_object(std::size_t) { return open(); }
-  bool start_array(std::size_t) { return open(); }
+  bool start_object(std::size_t) { return value() && open(true); }
+  bool start_array(std::size_t) { return value() && open(false); }
   bool end_object() { return close(); }
   bool end_array() { return close(); }
   bool key(string_t const& k) {
-    if (keys_.back().insert(k).second) return true;
-    return fail("", "the key " + in_quotes(k) + " stands twice in one object");
+    bool const fresh = open_.back().keys.insert(k).second;
+    open_.back().key = k;
+    return fresh || fail(pointer(), "the key " + in_quotes(k) + " stands twice in one object");
   }
   bool parse_error(std::size_t position, std::string const&, nlohmann::json::exception const& e) {
     auto const at = position == 0 ? 0 : position - 1;
@@ -58,23 +59,41 @@ private:
     return false;
   }
   bool value() {
+    if (!open_.empty()) ++open_.back().count;
     return ++elements_ <= limits_.max_elements ||
-           fail("", "more than " + std::to_string(limits_.max_elements) + " values");
+           fail(pointer(), "more than " + std::to_string(limits_.max_elements) + " values");
   }
-  bool open() {
-    keys_.emplace_back();
-    if (keys_.size() > limits_.max_depth)
-      return fail("", "nested deeper than " + std::to_string(limits_.max_depth) + " levels");
-    return value();
-  }
-  bool close() {
-    keys_.pop_back();
+  bool open(bool object) {
+    if (open_.size() == limits_.max_depth)
+      return fail(pointer(), "nested deeper than " + std::to_string(limits_.max_depth) + " levels");
+    open_.push_back({object, 0, {}, {}});
     return true;
   }
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+  /// Where the parser is, as a JSON pointer; not longer than a line.
+  std::string pointer() const {
+    std::string out;
+    for (level const& l : open_) {
+      out += '/';
+      out += l.object ? l.key : std::to_string(l.count == 0 ? 0 : l.count - 1);
+      if (out.size() > 100) return out.substr(0, out.find_last_of('/')) + "/…";
+    }
+    return out.empty() ? "/" : out;
+  }
+
+  struct level {
+    bool object;
+    std::size_t count;
+    std::string key;
+    std::set<std::string, std::less<>> keys;
+  };
 
   std::string_view text_;
   load_options const& limits_;
-  std::vector<std::set<std::string, std::less<>>> keys_;
+  std::vector<level> open_;
   std::size_t elements_ = 0;
 };
 

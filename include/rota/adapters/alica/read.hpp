@@ -270,18 +270,20 @@ inline void read_xml(draft& out, std::string_view text, load_options const& limi
                       cut_off ? "cut off: the XML text ends too early"
                               : std::string("no XML: ") + parsed.description());
   }
+  auto const place = [&](pugi::xml_node n) { return xml_cursor{n, lines}.place(); };
   pugi::xml_node top;
   for (auto const child : tree.children()) {
     if (child.type() == pugi::node_doctype)
-      return out.defect("", {}, "a document type declaration (DOCTYPE), which no plan file needs");
+      return out.defect(lines.place(text.find("<!DOCTYPE")), {},
+                        "a document type declaration (DOCTYPE), which no plan file needs");
     if (child.type() != pugi::node_element) continue;
-    if (top) return out.defect("", {}, "more than one root element");
+    if (top) return out.defect(place(child), {}, "more than one root element");
     top = child;
   }
-  if (depth_of(tree, limits.max_depth) > limits.max_depth)
-    return out.defect("", {}, "nested deeper than " + std::to_string(limits.max_depth) + " levels");
+  if (auto const n = too_deep(tree, limits.max_depth))
+    return out.defect(place(n), {}, "nested deeper than " + std::to_string(limits.max_depth) + " levels");
   if (auto const expected = root_element(out.kind); local_name(top.name()) != expected && !expected.empty())
-    return out.defect(xml_cursor{top, lines}.place(), {},
+    return out.defect(place(top), {},
                       "the root element is " + in_quotes(top.name()) + ", not a " + std::string(expected));
   content_reader<xml_cursor>{out, limits}.read(xml_cursor{top, lines});
 }

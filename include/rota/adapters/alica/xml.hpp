@@ -68,6 +68,7 @@ public:
 
   xml_cursor(pugi::xml_node node, line_index const& lines) : node_(node), lines_(&lines) {}
 
+  /// "LINE:COLUMN <name>".
   [[nodiscard]] std::string place() const { return place_of(node_); }
   [[nodiscard]] std::string place(std::string_view key) const { return place() + ' ' + std::string(key); }
 
@@ -167,27 +168,24 @@ private:
   line_index const* lines_;
 };
 
-/// How deep elements are nested below this node, or `limit + 1` as soon as it is deeper. Iterative. O(n).
-[[nodiscard]] inline std::size_t depth_of(pugi::xml_node top, std::size_t limit) {
-  std::size_t depth = 0;
-  std::size_t deepest = 0;
-  auto n = top.first_child();
-  while (n) {
-    deepest = std::max(deepest, ++depth);
-    if (deepest > limit) return limit + 1;
+/// The first node nested deeper than the limit, if any. Iterative. O(n).
+[[nodiscard]] inline pugi::xml_node too_deep(pugi::xml_node top, std::size_t limit) {
+  std::size_t depth = 1;
+  for (auto n = top.first_child(); n;) {
+    if (depth > limit) return n;
     if (n.first_child()) {
       n = n.first_child();
+      ++depth;
       continue;
     }
-    --depth;
-    while (!n.next_sibling()) {
+    while (n && n != top && !n.next_sibling()) {
       n = n.parent();
-      if (!n || n == top) return deepest;
       --depth;
     }
+    if (!n || n == top) break;
     n = n.next_sibling();
   }
-  return deepest;
+  return {};
 }
 
 }  // namespace rota::alica::detail

@@ -1,0 +1,285 @@
+#include "cli/program.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <optional>
+#include <random>
+
+namespace rota::test {
+namespace {
+
+using nlohmann::json;
+
+std::string shipped(std::string const& name) { return (own_files() / name).string(); }
+
+/// A plan with tasks Attack 1..1, Defend 1..2, Support 0..2.
+std::string const play = "json/etc/plans/SoccerPlay.pml";
+
+class rota_allocate : public program_test {};
+
+TEST_F(rota_allocate, prints_the_json_of_the_documentation) {
+  sandbox box;
+  auto const csv = box.write("u.csv", "agent,Attack,Defend,Support\nr2,2,1,\nr1,1,1.5,\nr3,,,\n");
+  auto const r = rota_program({"allocate", "--plan", shipped(play), "--utilities", csv, "--json"});
+  EXPECT_EQ(r.status, 0) << r.complaint;
+  EXPECT_EQ(r.output,
+            R"({"plan":"SoccerPlay","utility":3.5,"optimal":true,"assignment":[{"agent":"r1","task":"Defend"},)"
+            R"({"agent":"r2","task":"Attack"}],"idle":["r3"],"event":{"added":[],"removed":[]}})"
+            "\n");
+}
+
+TEST_F(rota_allocate, says_why_and_what_changes) {
+  auto const r = rota_program({"allocate", "--plan", shipped(play), "--utilities", shipped("utilities.csv"),
+                               "--current", shipped("current.json")});
+  EXPECT_EQ(r.status, 0) << r.complaint;
+  for (auto const* part : {"plan     SoccerPlay (2011030100100)\n", "utility  7.25, proved optimal\n",
+                           "  r2  Attack  2.25\n", "Attack 1 in 1..1, Defend 2 in 1..2, Support 2 in 0..2", "5 in 2..5",
+                           "  + r2  Attack\n", "  - r3  Attack\n", "a running team adopts it (gain "})
+    EXPECT_NE(r.output.find(part), std::string::npos) << part << "not in:\n" << r.output;
+}
+
+TEST_F(rota_allocate, both_formats_and_any_order_of_rows_give_the_same_bytes) {
+  sandbox box;
+  auto const csv = box.write("u.csv", "\xEF\xBB\xBF"
+                                      "agent,Support,\"Attack\",Defend\r\nr5,0.25,0.25,1\r\n\"r2\",1,2.25,\"0.25\"\r\n"
+                                      "r4, 0.5 ,,2\r\nr1,0.75,0.5,1.5\r\nr3,1.25,1.75,0.5\r\n\r\n");
+  auto const a = rota_program({"allocate", "--plan", shipped(play), "--utilities", shipped("utilities.csv"), "--json"});
+  auto const b =
+      rota_program({"allocate", "--plan", shipped("xml/etc/plans/SoccerPlay.pml"), "--utilities", csv, "--json"});
+  EXPECT_EQ(a.status, 0) << a.complaint;
+  EXPECT_EQ(a.output, b.output) << b.complaint;
+}
+
+// ALICA's first defect: a plan type yields the plan with the lowest id, not the best one.
+TEST_F(rota_allocate, a_plan_type_yields_its_best_plan) {
+  auto const r = rota_program({"allocate", "--plan", shipped("json"), "--plan-type", "Soccer", "--utilities",
+                               shipped("utilities-of-both-plans.csv"), "--current", shipped("current.json"), "--json"});
+  ASSERT_EQ(r.status, 0) << r.complaint;
+  auto const j = json::parse(r.output);
+  EXPECT_EQ(j["plan"], "SoccerPress") << "its id is the higher one";
+  EXPECT_EQ(j["utility"], 7.5);
+  EXPECT_EQ(j["event"]["added"].size(), 5u);
+  EXPECT_EQ(j["event"]["removed"][0], json({{"agent", "r2"}, {"plan", "SoccerPlay"}, {"task", "Support"}}));
+}
+
+TEST_F(rota_allocate, its_output_is_a_current_allocation) {
+  sandbox box;
+  std::vector<std::string> const question = {
+      "allocate", "--plan", shipped(play), "--utilities", shipped("utilities.csv"), "--json"};
+  auto const first = rota_program(question);
+  auto again = question;
+  again.insert(again.end(), {"--current", box.write("now.json", first.output)});
+  auto const second = rota_program(again);
+  EXPECT_EQ(second.status, 0) << second.complaint;
+  EXPECT_EQ(second.output, first.output) << "nothing changes, so the event is empty";
+}
+
+TEST_F(rota_allocate, an_agent_that_left_is_removed) {
+  sandbox box;
+  auto const now =
+      box.write("now.json", R"({"plan": "SoccerPlay", "assignment": [{"agent": "r9", "task": "Attack"}]})");
+  auto const r = rota_program(
+      {"allocate", "--plan", shipped(play), "--utilities", shipped("utilities.csv"), "--json", "--current", now});
+  ASSERT_EQ(r.status, 0) << r.complaint;
+  EXPECT_EQ(json::parse(r.output)["event"]["removed"], json::parse(R"([{"agent": "r9", "task": "Attack"}])"));
+}
+
+TEST_F(rota_allocate, no_valid_allocation_is_exit_1_with_a_reason) {
+  sandbox box;
+  auto const reason = [&](std::string const& csv, bool no_idle) {
+    std::vector<std::string> question = {"allocate", "--plan",      shipped(play),
+                                         "--json",   "--utilities", box.write("u.csv", csv)};
+    if (no_idle) question.push_back("--no-idle");
+    auto const r = rota_program(question);
+    EXPECT_EQ(r.status, 1) << r.output << r.complaint;
+    auto const j = json::parse(r.output, nullptr, false);
+    EXPECT_TRUE(j.is_object() && j.size() == 2 && j["plan"].is_null()) << r.output;
+    return j.value("reason", "");
+  };
+  std::string const head = "agent,Attack,Defend,Support\n";
+  EXPECT_EQ(reason(head + "r1,1,1,1\n", false), "SoccerPlay: it needs at least 2 agents, and there are 1");
+  EXPECT_EQ(reason(head, false), "SoccerPlay: it needs at least 2 agents, and there are 0");
+  EXPECT_EQ(reason(head + "r1,,1,1\nr2,,1,1\n", false), "SoccerPlay: 0 agents can take on Attack, which needs 1..1");
+  EXPECT_EQ(reason(head + "r1,1,1,\nr2,1,1,\nr3,,,\n", true), "SoccerPlay: r3 can take on no task and may not idle");
+  EXPECT_EQ(reason(head + "r1,-5,1,\nr2,-5,1,\n", false), "SoccerPlay: its utility is at most -4, below 0");
+  EXPECT_EQ(reason(head + "a,1,1,1\nb,1,1,1\nc,1,1,1\nd,1,1,1\ne,1,1,1\nf,1,1,1\n", true),
+            "SoccerPlay: nobody may idle, there are 6 agents, and it has room for 5");
+}
+
+TEST_F(rota_allocate, wrong_tables_are_one_line_with_line_and_column) {
+  sandbox box;
+  auto const expect = [&](std::string const& csv, std::string const& place, std::string const& reason) {
+    auto const file = box.write("u.csv", csv);
+    SCOPED_TRACE(csv);
+    expect_complaint(rota_program({"allocate", "--plan", shipped(play), "--utilities", file}),
+                     {file + ':' + place + ": ", reason});
+  };
+  std::string const head = "agent,Attack,Defend,Support\n";
+  expect("", "1:1", "empty");
+  expect("\n", "1:1", "empty");
+  expect("robot,Attack\n", "1:1", "begins with \"robot\"");
+  expect("agent\nr1\n", "1:1", "no task");
+  expect("agent,Attack,Keep\n", "1:14", "no task is called \"Keep\"; there are Attack, Defend, Support");
+  expect("agent,Attack,Attack\n", "1:14", "\"Attack\" stands twice");
+  expect("agent,SoccerPlay/Attack\n", "1:7", "no task is called");
+  expect(head + "r1,1,2\n", "2:6", "3 cells, but the header has 4");
+  expect(head + "r1,1,2,3,4\n", "2:10", "5 cells");
+  expect(head + "r1,1,2,3\n\nr2,1,2,3\n", "3:1", "1 cells");
+  expect(head + "r1,1,x,3\n", "2:6", "\"x\" is no number");
+  expect(head + "r1,1,1.5m,3\n", "2:6", "is no number");
+  expect(head + "r1,1,0x10,3\n", "2:6", "is no number");
+  expect(head + "r1,1,nan,3\n", "2:6", "no utility");
+  expect(head + "r1,1,inf,3\n", "2:6", "no utility");
+  expect(head + "r1,1,-inf,3\n", "2:6", "no utility");
+  expect(head + "r1,1,1e999,3\n", "2:6", "no utility");
+  expect(head + "r1,1,2e9,3\n", "2:6", "no utility");
+  expect(head + "r1,1,2,3\nr1,1,2,3\n", "3:1", "the agent \"r1\" stands twice");
+  expect(head + ",1,2,3\n", "2:1", "without a name");
+  expect(head + "\"r1,1,2,3\n", "2:1", "never closed");
+  expect(head + "\"r1\"x,1,2,3\n", "2:5", "behind a closing quote");
+  expect(head + "r\"1,1,2,3\n", "2:1", "quote inside");
+  expect(head + "r\xFF,1,2,3\n", "2:2", "not UTF-8");
+}
+
+TEST_F(rota_allocate, wrong_current_allocations_are_one_line_with_a_place) {
+  sandbox box;
+  auto const expect = [&](std::string const& text, std::string const& place, std::string const& reason) {
+    auto const file = box.write("now.json", text);
+    SCOPED_TRACE(text);
+    expect_complaint(rota_program({"allocate", "--plan", shipped(play), "--utilities", shipped("utilities.csv"),
+                                   "--current", file, "--json"}),
+                     {file + ':' + place, reason});
+  };
+  expect("", "1:1", "cut off");
+  expect("{\"plan\": ", "1:10", "cut off");
+  expect("[]", "/", "not an allocation");
+  expect("{}", "/", "\"plan\" is missing");
+  expect(R"({"plan": 5})", "/plan", "neither a name nor null");
+  expect(R"({"plan": "SoccerPlay"})", "/", "\"assignment\" is missing");
+  expect(R"({"plan": "SoccerPlay", "assignment": {}})", "/assignment", "not a list");
+  expect(R"({"plan": "SoccerPlay", "assignment": [5]})", "/assignment/0", "not an object");
+  expect(R"({"plan": "SoccerPlay", "assignment": [{"agent": "r1"}]})", "/assignment/0", "\"task\" is missing");
+  expect(R"({"plan": "SoccerPlay", "assignment": [{"agent": 1, "task": "Attack"}]})", "/assignment/0/agent", "no");
+  expect(R"({"plan": "SoccerPlay", "assignment": [{"agent": "r1", "task": "Keep"}]})", "/assignment/0/task",
+         "no task \"Keep\"");
+  expect(R"({"plan": "SoccerPlay", "assignment": [{"agent": "r1", "task": "Attack", "x": 1}]})", "/assignment/0/x",
+         "only");
+  expect(
+      R"({"plan": "SoccerPlay", "assignment": [{"agent": "r1", "task": "Attack"}, {"agent": "r1", "task": "Defend"}]})",
+      "/assignment/1", "two tasks");
+  expect(R"({"plan": "Chess", "assignment": []})", "/plan", "no plan \"Chess\"");
+  expect(R"({"plan": null, "assignment": [{"agent": "r1", "task": "Attack"}]})", "/assignment", "without a plan");
+  expect(R"({"plan": "SoccerPlay", "assigment": []})", "/assigment", "no such key");
+  expect(R"({"plan": "SoccerPlay", "plan": "SoccerPlay"})", "/plan", "twice");
+  expect(std::string(100, '['), "/0/0", "nested deeper");
+}
+
+TEST_F(rota_allocate, wrong_plans_are_one_line) {
+  sandbox box;
+  auto const csv = shipped("utilities.csv");
+  auto const ask = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"allocate", "--utilities", csv});
+    return rota_program(more);
+  };
+  expect_complaint(ask({"--plan", "/nowhere.pml"}), {"/nowhere.pml", "no such file"});
+  expect_complaint(ask({}), {"--plan"});
+  expect_complaint(rota_program({"allocate", "--plan", shipped(play)}), {"--utilities"});
+  expect_complaint(rota_program({"allocate", "--plan", shipped(play), "--utilities", "/nowhere.csv"}),
+                   {"/nowhere.csv", "no such file"});
+  expect_complaint(rota_program({"allocate", "--plan", shipped(play), "--utilities", box.folder()}),
+                   {box.folder(), "folder"});
+  expect_complaint(ask({"--plan", shipped("json")}), {"2 plans (SoccerPlay, SoccerPress)"});
+  expect_complaint(ask({"--plan", shipped("json"), "--plan-type", "Chess"}), {"no plan type is called \"Chess\""});
+  expect_complaint(ask({"--plan", shipped("json/etc/tasks/soccer.tsk")}), {"no plan"});
+  auto const broken = box.write("etc/p.pml", R"({"id": 10, "entryPoints": [{"id": 11, "task": "t.tsk#2"}]})");
+  expect_complaint(ask({"--plan", broken}), {broken, "/entryPoints/0/task", "t.tsk#2 is not found", "id 11"});
+  expect_complaint(ask({"--plan", box.write("etc/q.pml", "{")}), {"q.pml:1:2", "cut off"});
+}
+
+// --- AttackPlay, against plain enumeration -----------------------------------------------------------------------
+
+struct task_bounds {
+  std::string name;
+  int min;
+  int max;
+};
+
+/// The greatest utility over every assignment, by trying them all; nothing if none is valid.
+std::optional<double> enumerate(std::vector<std::vector<std::optional<double>>> const& u,
+                                std::vector<task_bounds> const& tasks, int team_min, int team_max) {
+  std::optional<double> best;
+  std::vector<std::size_t> choice(u.size(), 0);  // 0 is idle
+  for (;;) {
+    std::vector<int> counts(tasks.size() + 1, 0);
+    double sum = 0;
+    bool valid = true;
+    for (std::size_t a = 0; a < u.size(); ++a) {
+      ++counts[choice[a]];
+      if (choice[a] == 0) continue;
+      auto const x = u[a][choice[a] - 1];
+      valid = valid && x.has_value();
+      sum += x.value_or(0);
+    }
+    for (std::size_t t = 0; t < tasks.size(); ++t)
+      valid = valid && counts[t + 1] >= tasks[t].min && counts[t + 1] <= tasks[t].max;
+    int const employed = static_cast<int>(u.size()) - counts[0];
+    valid = valid && employed >= team_min && employed <= team_max && sum >= 0;
+    if (valid && (!best || sum > *best)) best = sum;
+    std::size_t a = 0;
+    while (a < choice.size() && ++choice[a] > tasks.size()) choice[a++] = 0;
+    if (a == choice.size()) return best;
+  }
+}
+
+TEST_F(rota_allocate, attack_play_gets_the_optimum_of_enumeration) {
+  if (!fs::exists(real_files())) GTEST_SKIP() << "no folder " << real_files();
+  auto const plan = (real_files() / "dasys-lab__cnc-msl/etc/plans/Attack/AttackPlay.pml").string();
+  std::vector<task_bounds> const tasks = {
+      {"Attack", 1, 1}, {"Block", 0, 1}, {"Defend", 0, 1}, {"ReceivePassInGame", 1, 1}};
+  std::mt19937 random{20110301};
+  sandbox box;
+  int none = 0;
+  for (int round = 0; round < 40; ++round) {
+    std::vector<std::vector<std::optional<double>>> u(1 + random() % 6);
+    std::string csv = "agent,Attack,Block,Defend,ReceivePassInGame\n";
+    for (std::size_t a = 0; a < u.size(); ++a) {
+      csv += 'r' + std::to_string(a + 1);
+      for (std::size_t t = 0; t < tasks.size(); ++t) {
+        // Quarters: exact in the CSV, in doubles and in the solver's fixed point.
+        auto& cell = u[a].emplace_back();
+        if (random() % 4 != 0) cell = (static_cast<double>(random() % 40) - 8) / 4;
+        csv += ',' + (cell ? std::to_string(*cell) : std::string());
+      }
+      csv += '\n';
+    }
+    SCOPED_TRACE(csv);
+    auto const r = rota_program({"allocate", "--plan", plan, "--utilities", box.write("u.csv", csv), "--json"});
+    auto const expected = enumerate(u, tasks, 2, 4);
+    auto const j = json::parse(r.output, nullptr, false);
+    ASSERT_TRUE(j.is_object()) << r.complaint;
+    if (!expected) {
+      ++none;
+      EXPECT_EQ(r.status, 1);
+      EXPECT_TRUE(j["plan"].is_null());
+      continue;
+    }
+    EXPECT_EQ(r.status, 0);
+    ASSERT_EQ(j["plan"], "AttackPlay") << r.output;
+    EXPECT_EQ(j["utility"], *expected);
+    EXPECT_EQ(j["optimal"], true);
+    EXPECT_EQ(j["assignment"].size() + j["idle"].size(), u.size());
+    double sum = 0;
+    for (auto const& x : j["assignment"]) {
+      auto const a = std::stoul(x["agent"].get<std::string>().substr(1)) - 1;
+      for (std::size_t t = 0; t < tasks.size(); ++t)
+        if (tasks[t].name == x["task"]) sum += u[a][t].value();
+    }
+    EXPECT_EQ(sum, *expected) << "the assignment is worth what is said";
+  }
+  EXPECT_GT(none, 3);
+  EXPECT_LT(none, 30);
+}
+
+}  // namespace
+}  // namespace rota::test
