@@ -19,7 +19,7 @@ enum class happening : unsigned char {
   heard_claim,  ///< a claim of `other` was taken in; `change` is what it imposed
   said_plan,    ///< it broadcast a plan message
   said_claim,   ///< it broadcast a claim: a new one, a new version, or a repetition
-  reign_began,  ///< it leads from now on
+  reign_began,  ///< it leads from now on: it `detected` a conflict just before, or answers a smaller claim
   reign_ended   ///< it leads no more; `superseded` if because it obeys a greater claim now
 };
 

@@ -72,7 +72,7 @@ struct figures {
 ///   and at the end of the run it is cut off; the agreement that an episode ends with there may be shorter.
 /// * reign: of a robot that leads, from a beginning within the measured time, unless it obeys a greater claim within
 ///   `calm` (of several claims made at once only the greatest is a reign), or the run ends before it deliberates.
-/// * right: at its first deliberation as a leader, the attackers it imposes are those of the best allocation under the
+/// * right: at its first deliberation as a leader, that which began the reign included, the attackers it imposes are those of the best allocation under the
 ///   true world.
 template <class Simulation>
 class metrics {
@@ -92,16 +92,19 @@ public:
     }
     if (r.time < begin_) return;
     figures_.cycles += r.cycles;
-    figures_.detections += r.detected ? 1 : 0;
     reign& mine = reigns_[r.robot];
     switch (r.what) {
     case happening::deliberated:
       ++figures_.deliberations;
+      figures_.detections += r.detected ? 1 : 0;
       if (r.leading && mine.began && !mine.right) mine.right = imposes_right(r);
       break;
     case happening::said_plan:
     case happening::said_claim: ++figures_.messages; break;
-    case happening::reign_began: mine = {r.time, std::nullopt}; break;
+    case happening::reign_began:
+      mine = {r.time, std::nullopt};
+      if (r.detected) mine.right = imposes_right(r);
+      break;
     case happening::reign_ended:
       if (mine.began && !(r.superseded && r.time - *mine.began < calm)) count(r.robot);
       mine = {};

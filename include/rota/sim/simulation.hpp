@@ -146,7 +146,6 @@ private:
     world_.advance(now_);
     r.eyes.look(world_.state(), r.belief);
     auto const d = r.mind.deliberate(book_.type, members_, r.belief, r.clock.local(now_), space_);
-    note_reign(i, observe);
     details more;
     more.cycles = d.cycles;
     more.detected = d.detected.has_value();
@@ -155,6 +154,7 @@ private:
     } else {
       tell(observe, i, happening::deliberated, compose(d.deleted, d.event), more);
     }
+    note_reign(i, observe, d.reign_began);
     speak(i, observe);
   }
 
@@ -168,10 +168,10 @@ private:
     more.claim = answer.claim;
     bool const plan = std::holds_alternative<plan_message<names>>(b.content);
     if (--b.copies == 0) free_.push_back(e.slot);
-    note_reign(e.robot, observe);
     static constexpr event<in<names>> nothing;
     tell(observe, e.robot, plan ? happening::heard_plan : happening::heard_claim,
          answer.changes.empty() ? nothing : answer.changes[0].event, more);
+    note_reign(e.robot, observe);
     speak(e.robot, observe);
   }
 
@@ -241,15 +241,17 @@ private:
   }
 
   template <class Observer>
-  void note_reign(std::size_t i, Observer& observe) {
+  void note_reign(std::size_t i, Observer& observe, bool detected = false) {
     auto const& rule = rule_of(i);
     std::uint64_t const reign = rule.leading() ? rule.current().number : 0;
     std::uint64_t const before = std::exchange(robots_[i].reign, reign);
     if (reign == before) return;
-    details more;
-    more.superseded = rule.obeying();
-    if (before != 0) tell(observe, i, happening::reign_ended, {}, more);
-    if (reign != 0) tell(observe, i, happening::reign_began, {});
+    details ended;
+    ended.superseded = rule.obeying();
+    if (before != 0) tell(observe, i, happening::reign_ended, {}, ended);
+    details began;
+    began.detected = detected;
+    if (reign != 0) tell(observe, i, happening::reign_began, {}, began);
   }
 
   playbook const& book_;
