@@ -273,7 +273,7 @@ TEST_F(rota_allocate, attack_play_gets_the_optimum_of_enumeration) {
     for (auto const& x : j["assignment"]) {
       auto const a = std::stoul(x["agent"].get<std::string>().substr(1)) - 1;
       for (std::size_t t = 0; t < tasks.size(); ++t)
-        if (tasks[t].name == x["task"]) sum += u[a][t].value();
+        if (x["task"] == json(tasks[t].name)) sum += u[a][t].value();
     }
     EXPECT_EQ(sum, *expected) << "the assignment is worth what is said";
   }
