@@ -56,7 +56,8 @@ private:
     line_start_ = at_;
   }
   void end_line() {
-    if (take('\r') | take('\n')) newline();
+    bool const returned = take('\r');
+    if (take('\n') || returned) newline();
   }
   csv_cell plain_cell() {
     auto cell = here();
