@@ -258,7 +258,7 @@ TEST(alica_hostile, what_is_no_file_is_one_error) {
     EXPECT_EQ(errors[0].file, box.path(name));
     EXPECT_NE(errors[0].reason.find(reason), std::string::npos) << errors[0].reason;
     EXPECT_EQ(m.plans.size(), 1u);
-    EXPECT_EQ(only(alica::load(box.path(name)), alica::severity::error).size(), 1u) << "also when given alone";
+    EXPECT_EQ(only(load(box.path(name)), alica::severity::error).size(), 1u) << "also when given alone";
     fs::remove_all(box.path(name));
   };
   fs::create_directory(box.path("etc/x.pml"));
@@ -274,7 +274,7 @@ TEST(alica_hostile, what_is_no_file_is_one_error) {
     fs::permissions(box.path("etc/x.pml"), fs::perms::none);
     expect_one("etc/x.pml", "cannot be opened");
   }
-  EXPECT_EQ(only(alica::load(box.path("nowhere")), alica::severity::error).size(), 1u);
+  EXPECT_EQ(only(load(box.path("nowhere")), alica::severity::error).size(), 1u);
 }
 
 TEST(alica_hostile, links_to_folders_are_not_followed_and_links_to_files_are_read_once) {
@@ -320,14 +320,12 @@ TEST(alica_hostile, references_do_not_lead_to_files_of_other_kinds) {
   sandbox box;
   box.write("secret.txt", tasks);
   box.write("etc/x.pml", plan_with(R"("task": "../secret.txt#2", "minCardinality": 0, "maxCardinality": 1)"));
-  auto const m = alica::load(box.path("etc/x.pml"));
+  auto const m = load(box.path("etc/x.pml"));
   EXPECT_EQ(only(m, alica::severity::error).size(), 1u);
   EXPECT_EQ(m.documents.size(), 1u);
 }
 
-TEST(alica_hostile, no_path_gives_an_empty_model) {
-  EXPECT_EQ(alica::load(std::span<fs::path const>{}), alica::model{});
-}
+TEST(alica_hostile, no_path_gives_an_empty_model) { EXPECT_EQ(load(std::vector<fs::path>{}), alica::model{}); }
 
 }  // namespace
 }  // namespace rota::test

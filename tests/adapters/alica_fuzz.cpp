@@ -17,7 +17,7 @@ std::vector<fs::path> shipped_files() {
 }
 
 alica::detail::draft read(fs::path const& file, std::string_view bytes) {
-  return alica::detail::read_document(bytes, alica::detail::kind_of(file.string()));
+  return read_document(bytes, alica::detail::kind_of(file.string()));
 }
 
 TEST(alica_fuzz, cut_off_at_every_byte_is_refused) {

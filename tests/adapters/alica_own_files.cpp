@@ -20,8 +20,8 @@ alica::model without_files(alica::model m) {
 }
 
 TEST(alica_own_files, both_formats_load_to_the_same_model) {
-  auto const json = alica::load(own_files() / "json");
-  auto const xml = alica::load(own_files() / "xml");
+  auto const json = load(own_files() / "json");
+  auto const xml = load(own_files() / "xml");
   EXPECT_TRUE(json.diagnostics.empty()) << errors_of(json);
   EXPECT_TRUE(xml.diagnostics.empty()) << errors_of(xml);
   EXPECT_EQ(json.documents.size(), 5u);
@@ -32,7 +32,7 @@ TEST(alica_own_files, both_formats_load_to_the_same_model) {
 }
 
 TEST(alica_own_files, hold_what_the_readme_says) {
-  auto const m = alica::load(own_files() / "json");
+  auto const m = load(own_files() / "json");
   ASSERT_EQ(m.plans.size(), 2u);
   auto const& play = m.plans[0];
   EXPECT_EQ(play.name, "SoccerPlay");
@@ -51,7 +51,7 @@ TEST(alica_own_files, hold_what_the_readme_says) {
 
 TEST(alica_own_files, a_plan_alone_finds_its_tasks_on_disk) {
   for (auto const* format : {"json", "xml"}) {
-    auto const m = alica::load(own_files() / format / "etc" / "plans" / "SoccerPlay.pml");
+    auto const m = load(own_files() / format / "etc" / "plans" / "SoccerPlay.pml");
     EXPECT_TRUE(m.diagnostics.empty()) << errors_of(m);
     ASSERT_EQ(m.plans.size(), 1u);
     EXPECT_EQ(m.plans[0].entry_points[1].task_name, "Defend");
@@ -62,7 +62,7 @@ TEST(alica_own_files, a_plan_alone_finds_its_tasks_on_disk) {
 
 TEST(alica_own_files, a_plan_type_alone_finds_its_plans_and_their_tasks) {
   for (auto const* format : {"json", "xml"}) {
-    auto const m = alica::load(own_files() / format / "etc" / "plans" / "Soccer.pty");
+    auto const m = load(own_files() / format / "etc" / "plans" / "Soccer.pty");
     EXPECT_TRUE(m.diagnostics.empty()) << errors_of(m);
     EXPECT_EQ(m.plans.size(), 2u);
     EXPECT_EQ(m.documents.size(), 4u);
@@ -72,16 +72,16 @@ TEST(alica_own_files, a_plan_type_alone_finds_its_plans_and_their_tasks) {
 TEST(alica_own_files, the_order_of_paths_and_repeated_paths_change_nothing) {
   auto const plans = own_files() / "json" / "etc" / "plans";
   std::vector<fs::path> paths{plans / "SoccerPlay.pml", plans / "SoccerPress.pml", plans / "Soccer.pty"};
-  auto const there = alica::load(paths);
+  auto const there = load(paths);
   std::reverse(paths.begin(), paths.end());
-  EXPECT_EQ(there, alica::load(paths));
+  EXPECT_EQ(there, load(paths));
   paths.push_back(paths.front());
-  EXPECT_EQ(there, alica::load(paths));
+  EXPECT_EQ(there, load(paths));
 }
 
 TEST(alica_own_files, convert_to_plans_of_the_library) {
   using V = runtime_vocabulary;
-  auto const m = alica::load(own_files() / "xml");
+  auto const m = load(own_files() / "xml");
   auto const factory = [](alica::plan const&) -> additive_utility<V, no_beliefs> {
     return [](V::agent, V::task, no_beliefs const&) { return 1.0; };
   };
@@ -112,7 +112,7 @@ TEST(alica_own_files, convert_to_plans_of_the_library) {
 
 // ALICA's sixth defect: files write `defaultPriority`, its reader looks for `priorityDefault`, the default is 0.
 TEST(alica_own_files, default_priority_is_honoured) {
-  auto const m = alica::load(own_files() / "json");
+  auto const m = load(own_files() / "json");
   ASSERT_EQ(m.roles.size(), 2u);
   EXPECT_EQ(m.roles[0].default_priority, 0.5);
   auto const field_player = alica::to_role(m, m.roles[0]);

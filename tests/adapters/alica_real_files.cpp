@@ -120,7 +120,7 @@ protected:
   void SetUp() override {
     if (!fs::exists(real_files()))
       GTEST_SKIP() << "no folder " << real_files() << ": ROTA_ALICA_DATA names another place";
-    model_ = alica::load(real_files());
+    model_ = load(real_files());
   }
   static std::string short_name(std::string const& file) {
     return fs::path(file).lexically_relative(real_files()).generic_string();
@@ -186,7 +186,7 @@ TEST_F(alica_real_files, what_is_refused_misses_a_plan_or_a_task) {
 }
 
 TEST_F(alica_real_files, attack_play_lacks_sixteen_files_and_loads) {
-  auto const m = alica::load(real_files() / "dasys-lab__cnc-msl/etc/plans/Attack/AttackPlay.pml");
+  auto const m = load(real_files() / "dasys-lab__cnc-msl/etc/plans/Attack/AttackPlay.pml");
   EXPECT_EQ(errors_of(m), "");
   EXPECT_EQ(only(m, alica::severity::warning).size(), 16u);
   ASSERT_EQ(m.plans.size(), 1u);

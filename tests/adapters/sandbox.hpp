@@ -1,6 +1,7 @@
 #pragma once
 
-#include <rota/adapters/alica.hpp>
+#include <rota/adapters/alica/convert.hpp>
+#include <rota/adapters/alica/draft.hpp>
 
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +16,13 @@
 namespace rota::test {
 
 namespace fs = std::filesystem;
+
+// The reader, compiled once (reader.cpp): it brings the parsers of JSON and XML, 20 s in each unit that includes it.
+[[nodiscard]] alica::model load(std::vector<fs::path> const& paths, alica::load_options const& limits = {});
+[[nodiscard]] inline alica::model load(fs::path const& path, alica::load_options const& limits = {}) {
+  return load(std::vector{path}, limits);
+}
+[[nodiscard]] alica::detail::draft read_document(std::string_view bytes, alica::file_kind kind);
 
 /// A folder of its own, gone at the end.
 class sandbox {
@@ -40,7 +48,7 @@ public:
     std::ofstream(p, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return p.string();
   }
-  [[nodiscard]] alica::model load(alica::load_options const& limits = {}) const { return alica::load(folder_, limits); }
+  [[nodiscard]] alica::model load(alica::load_options const& limits = {}) const { return test::load(folder_, limits); }
 
 private:
   fs::path folder_;
