@@ -7,7 +7,7 @@ compiler_packages=(g++ cmake ninja-build)
 library_packages=(libboost-dev libeigen3-dev nlohmann-json3-dev libpugixml-dev libcli11-dev)
 test_packages=(libgtest-dev librapidcheck-dev)
 benchmark_packages=(libbenchmark-dev)
-heavy_packages=(clang-19 libclang-rt-19-dev clang-format-19)
+heavy_packages=(clang-19 libclang-rt-19-dev clang-format-19 git)
 
 say() { printf '\n== %s\n' "$*"; }
 fail() { printf '%s\n' "$@" >&2; exit 2; }

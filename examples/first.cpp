@@ -1,23 +1,15 @@
 #include <rota/rota.hpp>
 
-struct soccer {  // a vocabulary: any totally ordered names
-  enum class agent { keeper = 1, left, right };
-  enum class plan_type { play };
-  enum class plan { normal };
-  enum class task { attack, defend };
-  enum class state { get_ball, protect };
-};
-using atom = rota::in<soccer>;  // In(a, p, τ): agent a takes on task τ within plan p
-
 int main() {
-  constexpr auto left = soccer::agent::left;
-  rota::atom_set<atom> const before{{left, soccer::plan::normal, soccer::task::defend}};
-  rota::atom_set<atom> const told{{left, soccer::plan::normal, soccer::task::attack}};
+  // In(a, p, τ): agent 7 attacks (task 1) or defends (task 2) within plan 3. Names may also be enums of your own.
+  using atoms = rota::atom_set<rota::in<>>;
+  atoms const defends{{{7}, {3}, {2}}}, attacks{{{7}, {3}, {1}}};
 
-  auto const e_m = rota::difference(before, told);  // left says that it attacks
-  auto const e_r = rota::difference(told, before);  // we reallocate: no, it defends
-  bool const loop = rota::is_cycle(e_m, e_r, left);                                       // Def. 5
-  bool const no_group = rota::compose(e_m, e_m) == e_m;                                   // Def. 4: e∘e = e
-  bool const group = rota::delta(e_m) + rota::delta(e_m) - rota::delta(e_m) == rota::delta(e_m);  // brackets do not matter
+  auto const e_m = rota::difference(defends, attacks);  // a message: agent 7 says that it attacks
+  auto const e_r = rota::difference(attacks, defends);  // our reallocation: no, it defends
+
+  bool const loop = rota::is_cycle(e_m, e_r, {7});                                      // Def. 5
+  bool const no_group = rota::compose(e_m, e_m) == e_m;                                 // Def. 4: e∘e = e
+  bool const group = rota::delta(e_m) + rota::delta(e_r) == rota::delta<rota::in<>>{};  // ℤ^(Atoms)
   return loop && no_group && group ? 0 : 1;
 }

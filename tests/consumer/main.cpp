@@ -4,8 +4,20 @@
 #error "linking rota::rota must ask for C++20"
 #endif
 
-#if defined(WITH_COMPONENTS) && !__has_include(<Eigen/Core>)
-#error "linking rota::adapters must bring Eigen"
+#ifdef WITH_COMPONENTS
+#include <rota/adapters/alica.hpp>
+#include <rota/adapters/eigen.hpp>
+#include <rota/sim/evaluation.hpp>
 #endif
 
-int main() {}
+int main() {
+  rota::atom_set<rota::in<>> const before, after{{{1}, {2}, {3}}};
+  auto const e = rota::difference(before, after);
+  bool ok = rota::compose(e, inverse(e)).empty();
+#ifdef WITH_COMPONENTS
+  // What links against the packages of the components: pugixml, nlohmann-json, Eigen, Boost.
+  ok = ok && !rota::alica::load(std::filesystem::path("no such file")).diagnostics.empty();
+  ok = ok && rota::sim::all_scenarios.size() == 5;
+#endif
+  return ok ? 0 : 1;
+}

@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <rota/algebra/action.hpp>
+#include <rota/algebra/delta.hpp>
+
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+namespace {
+
+/// An atom that counts how often it is compared.
+struct counted {
+  int value = 0;
+  static inline std::uint64_t comparisons = 0;
+
+  friend bool operator==(counted a, counted b) {
+    ++comparisons;
+    return a.value == b.value;
+  }
+  friend std::strong_ordering operator<=>(counted a, counted b) {
+    ++comparisons;
+    return a.value <=> b.value;
+  }
+};
+
+using atoms = rota::atom_set<counted>;
+using event = rota::event<counted>;
+
+atoms every(int step, int n) {
+  std::vector<counted> v;
+  for (int i = 0; i < n; ++i) v.push_back({i * step});
+  return {v.begin(), v.end()};
+}
+
+template <class F>
+std::uint64_t cost(F f) {
+  auto const before = counted::comparisons;
+  f();
+  return counted::comparisons - before;
+}
+
+/// ALICA composes in quadratic time; here one merge does it: at most five comparisons an entry, whatever the size.
+TEST(complexity, compose_difference_sum_and_apply_are_linear) {
+  for (int n : {100, 1000, 10000}) {
+    auto const e = *event::make(every(6, n), atoms{});
+    auto const f = *event::make(atoms{}, every(4, n));
+    auto const bound = static_cast<std::uint64_t>(5 * 2 * n);
+    EXPECT_LE(cost([&] { (void)compose(e, f); }), bound);
+    EXPECT_LE(cost([&] { (void)(rota::delta(e) + rota::delta(f)); }), bound);
+    auto const before = every(6, n), after = every(4, n);
+    EXPECT_LE(cost([&] { (void)rota::difference(before, after); }), bound);
+    auto const change = rota::difference(before, after);
+    EXPECT_LE(cost([&] { (void)rota::apply(change, before); }), 2 * bound);
+  }
+}
+
+/// A control: the naive composition over sets by look-up would not pass the same bound at any size worth measuring.
+TEST(complexity, the_bound_rejects_a_quadratic_composition) {
+  int const n = 100;
+  auto const a = every(6, n), b = every(4, n);
+  auto const quadratic = cost([&] {
+    for (auto const& x : a)
+      for (auto const& y : b) (void)(x == y);
+  });
+  EXPECT_GT(quadratic, static_cast<std::uint64_t>(5 * 2 * n));
+}
+
+}  // namespace
