@@ -325,6 +325,73 @@ TEST(alica_hostile, references_do_not_lead_to_files_of_other_kinds) {
   EXPECT_EQ(m.documents.size(), 1u);
 }
 
+// ALICA's JSON names files without their folders: a file of the same name answers for it, one of another name does not.
+TEST(alica_hostile, a_reference_is_answered_by_a_file_of_that_name_only) {
+  auto const plan = [](std::string const& file) {
+    return plan_with("\"task\": \"" + file + R"(#2", "minCardinality": 0, "maxCardinality": 1)");
+  };
+  auto const reason = [&](std::string const& file) {
+    sandbox box;
+    box.write("etc/tasks/t.tsk", tasks);
+    box.write("etc/tasks/other.tsk", R"({"id": 7, "tasks": [{"id": 8, "name": "C"}]})");
+    auto const m = load(box.write("etc/plans/x.pml", plan(file)));
+    auto const all = box.load();
+    EXPECT_EQ(errors_of(all).empty(), errors_of(m).empty()) << "whether the file was given or found";
+    auto const errors = only(all, alica::severity::error);
+    return errors.empty() ? std::string() : errors.front().reason;
+  };
+  EXPECT_EQ(reason("t.tsk"), "");
+  EXPECT_EQ(reason("../tasks/t.tsk"), "");
+  EXPECT_EQ(reason("gone/t.tsk"), "");
+  EXPECT_NE(reason("u.tsk").find("u.tsk#2 is not found: there is no such file; the id stands in "), std::string::npos);
+  EXPECT_NE(reason("other.tsk").find("other.tsk#2 is not found; the id stands in "), std::string::npos);
+  EXPECT_NE(reason("../tasks/other.tsk").find("other.tsk#2 is not found; the id stands"), std::string::npos);
+}
+
+TEST(alica_hostile, the_file_that_is_named_goes_before_its_namesake) {
+  sandbox box;
+  box.write("etc/plans/t.tsk", R"({"id": 1, "tasks": [{"id": 2, "name": "Near"}]})");
+  auto const far = box.write("etc/tasks/t.tsk", R"({"id": 5, "tasks": [{"id": 6, "name": "Far"}]})");
+  auto const m = load({box.write("etc/plans/x.pml", sound), far});
+  EXPECT_EQ(errors_of(m), "");
+  ASSERT_EQ(m.plans.size(), 1u);
+  EXPECT_EQ(m.plans[0].entry_points[0].task_name, "Near");
+}
+
+TEST(alica_hostile, a_link_to_a_file_answers_by_either_name) {
+  sandbox box;
+  box.write("etc/real/tasks.tsk", tasks);
+  fs::create_directories(box.path("etc/plans"));
+  fs::create_symlink("../real/tasks.tsk", box.path("etc/plans/t.tsk"));
+  auto const m = load(box.write("etc/plans/x.pml", sound));
+  EXPECT_EQ(errors_of(m), "");
+  EXPECT_EQ(m.plans.size(), 1u);
+}
+
+// The folder of a plan outside any `etc` may be anything, a home directory say: nothing below it is looked for.
+TEST(alica_hostile, without_etc_only_the_named_file_is_read) {
+  sandbox box;
+  auto const plan = box.write("p/x.pml", sound);
+  box.write("p/deep/t.tsk", tasks);
+  auto const alone = only(load(plan), alica::severity::error);
+  ASSERT_EQ(alone.size(), 1u);
+  EXPECT_NE(alone[0].reason.find("there is no such file"), std::string::npos);
+  EXPECT_EQ(errors_of(load({plan, box.path("p/deep")})), "");
+  box.write("p/t.tsk", R"({"id": 5, "tasks": [{"id": 2, "name": "A"}]})");
+  EXPECT_EQ(errors_of(load(plan)), "");
+}
+
+TEST(alica_hostile, a_search_that_was_given_up_says_so) {
+  sandbox box;
+  auto const plan = box.write("etc/plans/x.pml", sound);
+  for (int i = 0; i < 20; ++i) box.write("etc/other/" + std::to_string(i), "");
+  alica::load_options small;
+  small.max_entries = 10;
+  auto const errors = only(load(plan, small), alica::severity::error);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_NE(errors[0].reason.find("given up, more than 10 files and folders"), std::string::npos) << errors[0].reason;
+}
+
 TEST(alica_hostile, no_path_gives_an_empty_model) { EXPECT_EQ(load(std::vector<fs::path>{}), alica::model{}); }
 
 }  // namespace

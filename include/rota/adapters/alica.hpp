@@ -59,7 +59,8 @@ private:
   /// Reads one file, unless the same file is there already.
   void add(found_file const& f) {
     if (!shown_.insert(f.shown).second) return;
-    entry e{f.shown, f.canonical, nearest_etc(f.canonical).value_or(common_), false, {}};
+    auto const etc = nearest_etc(f.canonical);
+    entry e{f.shown, f.canonical, etc.value_or(common_), etc.has_value(), false, {}};
     e.content.kind = kind_of(f.shown);
     if (!f.problem.empty()) {
       e.content.say(f.severity, {}, {}, f.problem);
@@ -96,22 +97,30 @@ private:
       auto const needed = entries_[i].content.needed;  // a copy: `entries_` grows
       for (link const& l : needed) {
         auto const wanted = l.wanted == sort::plan ? file_kind::plan : file_kind::task_repository;
-        if (all.resolve(i, l, true) || kind_of(l.to.file) != wanted) continue;
+        if (kind_of(l.to.file) != wanted) continue;
+        if (auto const named = all.literal(i, l)) take_up(*named, i, all);  // before any namesake
+        if (all.resolve(i, l, true)) continue;
         for (fs::path const& file : all.candidates(i, l)) {
-          if (!canonical_.insert(file).second) continue;
-          std::error_code error;
-          auto const shown = relative_ ? fs::proximate(file, error) : file;
-          entry e{error ? file.string() : shown.string(), file, nearest_etc(file).value_or(entries_[i].root), true, {}};
-          e.content = read(file, kind_of(file.string()));
-          entries_.push_back(std::move(e));
-          all.note(entries_.size() - 1);
+          take_up(file, i, all);
           if (all.resolve(i, l, true)) break;
         }
       }
     }
   }
 
-  [[nodiscard]] model assemble(directory const& all) {
+  /// Reads a file that the entry `from` leads to, unless it was read.
+  void take_up(fs::path const& file, std::size_t from, directory& all) {
+    if (!canonical_.insert(file).second) return;
+    std::error_code error;
+    auto const shown = relative_ ? fs::proximate(file, error) : file;
+    auto const etc = nearest_etc(file);
+    entry e{error ? file.string() : shown.string(), file, etc.value_or(entries_[from].root), etc.has_value(), true, {}};
+    e.content = read(file, kind_of(file.string()));
+    entries_.push_back(std::move(e));
+    all.note(entries_.size() - 1);
+  }
+
+  [[nodiscard]] model assemble(directory& all) {
     model m;
     std::set<std::string> roots;
     for (entry const& e : entries_) roots.insert(e.root.string());
@@ -157,7 +166,7 @@ private:
   }
 
   /// The plan with the names of its tasks. @pre every needed reference resolves
-  [[nodiscard]] static plan named(plan p, std::size_t file, directory const& all) {
+  [[nodiscard]] static plan named(plan p, std::size_t file, directory& all) {
     std::map<identity, link const*> by_entry;
     for (link const& l : all.needs(file)) by_entry.emplace(l.from.value_or(0), &l);
     for (entry_point& e : p.entry_points)
@@ -200,8 +209,8 @@ private:
 /// The plan model that these files and folders hold, and everything that is wrong with them.
 ///
 /// Folders are read with everything below them. A needed reference to a file that is not among them is followed on
-/// disk: literally, then by file name within the root (the nearest folder called `etc`, else the folder common to all
-/// paths). A file with an error is refused whole and named in `diagnostics`; the others are loaded. The result does not
+/// disk: literally, then by file name within the nearest folder called `etc`; without one, nothing else is searched, and
+/// ids are unique within the folder common to all paths. A file with an error is refused whole and named in `diagnostics`; the others are loaded. The result does not
 /// depend on the order of `paths` nor on that in which folders list their files. Never throws but for lack of memory.
 [[nodiscard]] inline model load(std::span<std::filesystem::path const> paths, load_options const& limits = {}) {
   return detail::loader{limits}.run(paths);

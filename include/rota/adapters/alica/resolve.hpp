@@ -18,7 +18,8 @@ namespace rota::alica::detail {
 struct entry {
   std::string shown;
   fs::path canonical;
-  fs::path root;
+  fs::path root;          ///< ids are unique within it
+  bool below_etc = false;  ///< the root is a folder `etc`, which may be searched; else only what was given is known
   bool followed = false;
   draft content;
 };
@@ -51,26 +52,29 @@ public:
     }
   }
 
-  /// What a reference in a file means: the named file if it holds the id, else the id within the root; bare ids only
-  /// within the file itself, unless they are `needed` (the older role sets name tasks so).
+  /// What a reference in a file means: the id in the named file, else in a file of that name elsewhere in the root, as
+  /// ALICA's JSON names files without their folders; bare ids only within the file itself, unless they are `needed` (the
+  /// older role sets name tasks so). A file of another name never answers.
   ///
   /// Among several declarations one of the wanted sort in a sound file is preferred.
-  [[nodiscard]] std::optional<target> resolve(std::size_t from, link const& l, bool needed) const {
+  [[nodiscard]] std::optional<target> resolve(std::size_t from, link const& l, bool needed) {
     std::vector<target> found;
-    auto const add = [&](fs::path const& root, std::optional<std::size_t> only) {
+    auto const add = [&](fs::path const& root, auto const& admits) {
       auto const& ids = by_id_.at(root);
       auto const at = ids.find(l.to.id);
       if (at == ids.end()) return;
       for (auto const& [file, k] : at->second)
-        if (!only || *only == file) found.push_back({file, &entries_[file].content.declared[k]});
+        if (admits(file)) found.push_back({file, &entries_[file].content.declared[k]});
     };
-    if (l.to.file.empty() && !needed) {
-      add(entries_[from].root, from);
+    auto const& root = entries_[from].root;
+    if (l.to.file.empty()) {
+      add(root, [&](std::size_t file) { return needed || file == from; });
     } else {
-      if (!l.to.file.empty())
-        if (auto const named = by_path_.find(path_of(from, l)); named != by_path_.end())
-          add(entries_[named->second].root, named->second);
-      if (found.empty()) add(entries_[from].root, std::nullopt);
+      if (auto const named = loaded_as(path_of(from, l)))
+        add(entries_[*named].root, [&](std::size_t file) { return file == *named; });
+      auto const name = fs::path(l.to.file).filename();
+      if (found.empty())
+        add(root, [&](std::size_t file) { return fs::path(entries_[file].shown).filename() == name; });
     }
     if (found.empty()) return std::nullopt;
     auto const rank = [&](target const& t) {
@@ -89,35 +93,77 @@ public:
   }
   [[nodiscard]] bool is_loaded(fs::path const& canonical) const { return by_path_.contains(canonical); }
 
-  /// The files that a reference may mean, on disk: the literal path, then files of that name within the root.
+  /// The file that a reference names literally, if it is on disk.
+  [[nodiscard]] std::optional<fs::path> literal(std::size_t from, link const& l) const {
+    if (l.to.file.empty() || fs::path(l.to.file).is_absolute()) return std::nullopt;
+    auto const file = look_at(path_of(from, l), true);
+    if (!file || !file->problem.empty()) return std::nullopt;
+    return file->canonical;
+  }
+  /// The files that a reference may mean, on disk: the literal one, then files of that name within the root, if that is
+  /// a folder `etc`: other folders may hold anything, and are not searched.
   [[nodiscard]] std::vector<fs::path> candidates(std::size_t from, link const& l) {
     std::vector<fs::path> out;
     if (l.to.file.empty() || fs::path(l.to.file).is_absolute()) return out;
-    auto const literal = look_at(path_of(from, l), true);
-    if (literal && literal->problem.empty()) out.push_back(literal->canonical);
-    auto const& in_root = names_below(entries_[from].root);
+    if (auto const named = literal(from, l)) out.push_back(*named);
+    if (!entries_[from].below_etc) return out;
+    auto const& in_root = below(entries_[from].root).files;
     if (auto const at = in_root.find(fs::path(l.to.file).filename().string()); at != in_root.end())
       out.insert(out.end(), at->second.begin(), at->second.end());
     return out;
   }
 
-private:
-  using names = std::map<std::string, std::vector<fs::path>>;
+  /// Says why a reference leads to nothing.
+  [[nodiscard]] std::string why_missing(std::size_t from, link const& l) {
+    std::string why = "not found";
+    if (l.to.file.empty()) return why;
+    bool const on_disk = !candidates(from, l).empty();
+    std::string const cut_short = entries_[from].below_etc ? below(entries_[from].root).cut_short : std::string{};
+    if (!cut_short.empty())
+      why += ": the search of " + entries_[from].root.string() + " was given up, " + cut_short;
+    else if (!on_disk)
+      why += ": there is no such file";
+    auto const& ids = by_id_.at(entries_[from].root);
+    if (auto const at = ids.find(l.to.id); at != ids.end())
+      why += "; the id stands in " + entries_[at->second.front().first].shown;
+    return why;
+  }
 
-  names const& names_below(fs::path const& root) {
+private:
+  /// The plan files below a root, by name.
+  struct listing {
+    std::map<std::string, std::vector<fs::path>> files;
+    std::string cut_short;  ///< why it is incomplete
+  };
+
+  listing const& below(fs::path const& root) {
     auto const [at, fresh] = on_disk_.try_emplace(root);
     if (fresh)
-      for (found_file const& f : files_below(root, limits_.max_entries))
+      for (found_file const& f : files_below(root, limits_.max_entries)) {
+        if (f.canonical == root) at->second.cut_short = f.problem;
         if (f.problem.empty() && kind_of(f.shown) != file_kind::none)
-          at->second[fs::path(f.shown).filename().string()].push_back(f.canonical);
+          at->second.files[fs::path(f.shown).filename().string()].push_back(f.canonical);
+      }
     return at->second;
+  }
+
+  /// The entry of a file, also if the path leads to it through links.
+  std::optional<std::size_t> loaded_as(fs::path const& p) {
+    auto const [real, fresh] = real_.try_emplace(p);
+    if (fresh) {
+      std::error_code error;
+      real->second = fs::canonical(p, error);
+    }
+    auto const at = by_path_.find(real->second);
+    return at == by_path_.end() || real->second.empty() ? std::nullopt : std::optional(at->second);
   }
 
   std::vector<entry>& entries_;
   load_options const& limits_;
   std::map<fs::path, std::size_t> by_path_;
   std::map<fs::path, std::map<identity, std::vector<std::pair<std::size_t, std::size_t>>>> by_id_;
-  std::map<fs::path, names> on_disk_;
+  std::map<fs::path, listing> on_disk_;
+  std::map<fs::path, fs::path> real_;
 };
 
 /// Ids that stand twice in one root: an error in the later file (in order of names) where allocation cares, else a
@@ -155,7 +201,7 @@ inline void check_references(std::vector<entry>& entries, directory& all) {
         auto const found = all.resolve(i, l, true);
         std::string why;
         if (!found) {
-          why = all.candidates(i, l).empty() && !l.to.file.empty() ? "not found: there is no such file" : "not found";
+          why = all.why_missing(i, l);
         } else if (found->object->what != l.wanted) {
           why = "a " + std::string(to_string(found->object->what)) + ", not a " + std::string(to_string(l.wanted));
         } else if (entries[found->file].content.refused()) {
@@ -168,9 +214,7 @@ inline void check_references(std::vector<entry>& entries, directory& all) {
         if (all.resolve(i, l, false)) continue;
         auto const on_disk = all.candidates(i, l);
         if (std::any_of(on_disk.begin(), on_disk.end(), [&](auto const& p) { return !all.is_loaded(p); })) continue;
-        draft.say(severity::warning, l.place, l.from,
-                  l.to.text() + (on_disk.empty() && !l.to.file.empty() ? " is not found: there is no such file"
-                                                                       : " is not found"));
+        draft.say(severity::warning, l.place, l.from, l.to.text() + " is " + all.why_missing(i, l));
       }
     }
   }
