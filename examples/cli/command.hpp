@@ -32,6 +32,11 @@ struct outcome {
   exit_status status = success;
 };
 
+/// For CLI11: an option whose value is empty is a mistake of the calling script, not one that was left out.
+[[nodiscard]] inline std::string check_not_empty(std::string const& text) {
+  return text.empty() ? "an empty value" : "";
+}
+
 /// The subcommand that the command line chose.
 using chosen_command = std::function<outcome()>;
 

@@ -8,9 +8,16 @@
 
 namespace {
 
-/// Says what is wrong in one line, whatever the message holds.
+/// Says what is wrong in one line that people can read, whatever the message holds.
 int complain(std::string const& what) {
-  std::fprintf(stderr, "rota: %s\n", rota::cli::printable(what).c_str());
+  constexpr std::size_t limit = 2000;
+  auto line = rota::cli::printable(what);
+  if (line.size() > limit) {
+    auto cut = limit;
+    while ((static_cast<unsigned char>(line[cut]) & 0xC0U) == 0x80) --cut;
+    line = line.substr(0, cut) + "…";
+  }
+  std::fprintf(stderr, "rota: %s\n", line.c_str());
   return rota::cli::misuse;
 }
 

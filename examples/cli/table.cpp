@@ -22,7 +22,7 @@ std::string_view trimmed(std::string_view s) {
   return s;
 }
 
-std::string in_quotes(std::string_view s) { return '"' + std::string(s.substr(0, 60)) + '"'; }
+using alica::detail::in_quotes;
 
 class csv_parser {
 public:
@@ -50,14 +50,19 @@ private:
     ++at_;
     return true;
   }
-  bool at_line_end() const { return at_ >= text_.size() || text_[at_] == '\n' || text_.substr(at_, 2) == "\r\n"; }
+  bool at_line_end() const {
+    if (at_ >= text_.size() || text_[at_] == '\n') return true;
+    if (text_[at_] != '\r') return false;
+    if (text_.substr(at_, 2) == "\r\n") return true;
+    throw input_error(file_, here().place(), "a carriage return alone: lines end with LF or CR LF");
+  }
   void newline() {
     ++line_;
     line_start_ = at_;
   }
   void end_line() {
-    bool const returned = take('\r');
-    if (take('\n') || returned) newline();
+    take('\r');
+    if (take('\n')) newline();
   }
   csv_cell plain_cell() {
     auto cell = here();

@@ -1,26 +1,62 @@
 #pragma once
 
+#include <rota/adapters/alica/text.hpp>
 #include <rota/model/cardinality.hpp>
 
 #include <charconv>
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rota::cli {
 
-/// The text with control characters made visible, so that no file can draw on the terminal or break a line.
+/// The text with all that could draw on the terminal or break or reorder a line made visible: control characters of
+/// ASCII (\x1b) and Unicode (\u009b), directions of writing (\u202e), line separators, bytes that are no UTF-8 (\xff).
 [[nodiscard]] inline std::string printable(std::string_view s) {
   constexpr char digits[] = "0123456789abcdef";
   std::string out;
-  for (char const c : s) {
-    auto const b = static_cast<unsigned char>(c);
-    if (b >= 0x20 && b != 0x7F) {
-      out += c;
-    } else {
-      out += "\\x";
-      out += digits[b >> 4U];
-      out += digits[b & 15U];
+  auto const escape = [&](char kind, unsigned value, int from) {
+    out += '\\';
+    out += kind;
+    for (int shift = from; shift >= 0; shift -= 4) out += digits[value >> static_cast<unsigned>(shift) & 15U];
+  };
+  auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
+  while (!s.empty()) {
+    auto const sound = alica::detail::first_bad_byte(s).value_or(s.size());
+    for (std::size_t i = 0; i < sound; ++i) {
+      unsigned const b = byte(i);
+      // Within sound UTF-8 the characters meant have two or three bytes, which these bounds keep inside the text.
+      unsigned const two = b == 0xC2 || b == 0xD8 ? (b & 31U) << 6U | (byte(i + 1) & 63U) : 0;
+      unsigned const three = b == 0xE2 ? 0x2000U | (byte(i + 1) & 63U) << 6U | (byte(i + 2) & 63U) : 0;
+      if (b < 0x20 || b == 0x7F) {
+        escape('x', b, 4);
+      } else if ((two >= 0x80 && two <= 0x9F) || two == 0x61C) {
+        escape('u', two, 12);
+        i += 1;
+      } else if (three == 0x200E || three == 0x200F || (three >= 0x2028 && three <= 0x202E) ||
+                 (three >= 0x2066 && three <= 0x2069)) {
+        escape('u', three, 12);
+        i += 2;
+      } else {
+        out += s[i];
+      }
     }
+    if (sound == s.size()) break;
+    escape('x', byte(sound), 4);
+    s.remove_prefix(sound + 1);
+  }
+  return out;
+}
+
+/// The names in one line; of very many only the first.
+[[nodiscard]] inline std::string joined(std::vector<std::string> const& names) {
+  constexpr std::size_t limit = 400;
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) out += ", ";
+    if (out.size() + names[i].size() > limit && i > 0) return out + "… (" + std::to_string(names.size()) + " in all)";
+    out += names[i];
   }
   return out;
 }

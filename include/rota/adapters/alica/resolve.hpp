@@ -18,7 +18,7 @@ namespace rota::alica::detail {
 struct entry {
   std::string shown;
   fs::path canonical;
-  fs::path root;          ///< ids are unique within it
+  fs::path root;           ///< ids are unique within it
   bool below_etc = false;  ///< the root is a folder `etc`, which may be searched; else only what was given is known
   bool followed = false;
   draft content;
@@ -73,8 +73,7 @@ public:
       if (auto const named = loaded_as(path_of(from, l)))
         add(entries_[*named].root, [&](std::size_t file) { return file == *named; });
       auto const name = fs::path(l.to.file).filename();
-      if (found.empty())
-        add(root, [&](std::size_t file) { return fs::path(entries_[file].shown).filename() == name; });
+      if (found.empty()) add(root, [&](std::size_t file) { return fs::path(entries_[file].shown).filename() == name; });
     }
     if (found.empty()) return std::nullopt;
     auto const rank = [&](target const& t) {
