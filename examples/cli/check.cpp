@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -158,11 +159,19 @@ outcome run_check(options const& o) {
   std::vector<std::filesystem::path> paths;
   for (auto const& p : o.paths) {
     std::error_code error;
-    if (std::filesystem::symlink_status(p, error).type() == std::filesystem::file_type::not_found || p.empty())
-      throw input_error(p.empty() ? "\"\"" : p, "", "no such file or folder");
+    if (std::filesystem::symlink_status(p, error).type() == std::filesystem::file_type::not_found)
+      throw input_error(p, "", "no such file or folder");
+    if (alica::detail::kind_of(p) == alica::file_kind::none && !std::filesystem::is_directory(p, error))
+      throw input_error(p, "", std::string(alica::detail::why_ignored(p)));
     paths.emplace_back(p);
   }
   auto const m = alica::load(paths);
+  for (auto const& p : o.paths)
+    if (std::none_of(m.documents.begin(), m.documents.end(), [&](alica::document const& d) {
+          return d.file.starts_with(p) &&
+                 (d.status == alica::file_status::refused || alica::detail::kind_of(d.file) != alica::file_kind::none);
+        }))
+      throw input_error(p, "", "no plan file in this folder");
   return {o.json ? as_json(m) : as_text(m), m.count(severity::error) == 0 ? success : negative};
 }
 
@@ -171,9 +180,11 @@ outcome run_check(options const& o) {
 void add_check(CLI::App& program, chosen_command& chosen) {
   auto const o = std::make_shared<options>();
   auto* const command = program.add_subcommand("check", "Says what plan files hold and what is wrong with them");
-  command->add_option("PATH", o->paths, "plan files, or folders with everything below them")->required();
+  command->add_option("PATH", o->paths, "plan files, or folders with everything below them")
+      ->required()
+      ->check(check_not_empty);
   command->add_flag("--json", o->json, "print JSON");
-  command->footer("Exit status: 0 nothing is wrong, 1 errors found in files, 2 misuse.");
+  command->footer("Exit status: 0 nothing is wrong, 1 errors found in files, 2 misuse, no plan file.");
   command->callback([o, &chosen] { chosen = [o] { return run_check(*o); }; });
 }
 

@@ -62,14 +62,32 @@ TEST_F(rota_check, file_names_cannot_break_lines) {
   box.write("etc/a\nb\x1B[31m\xFF.pml", "{");
   auto const r = rota_program({"check", box.folder()});
   EXPECT_EQ(r.status, 1);
-  EXPECT_TRUE(says(r, "a\\x0ab\\x1b[31m")) << r.output;
+  EXPECT_TRUE(says(r, "a\\x0ab\\x1b[31m\\xff.pml")) << r.output;
   auto const j = json::parse(rota_program({"check", "--json", box.folder()}).output, nullptr, false);
   EXPECT_TRUE(j.is_object());
 }
 
+TEST_F(rota_check, names_cannot_draw_on_the_terminal_or_turn_the_line) {
+  sandbox box;
+  box.write("etc/t.tsk", "{\"id\": 1, \"tasks\": [{\"id\": 2, \"name\": \"\xC2\x9B"
+                         "31m\xE2\x80\xAE"
+                         "k\xC3\xBC"
+                         "n "
+                         "\xE2\x80\xA6 \xE2\x81\xA9\xE2\x80\x8F\xE2\x80\xA8\xD8\x9C\"}]}");
+  auto const r = rota_program({"check", box.folder()});
+  EXPECT_EQ(r.status, 0);
+  EXPECT_TRUE(says(r, "  \\u009b31m\\u202ek\xC3\xBCn \xE2\x80\xA6 \\u2069\\u200f\\u2028\\u061c\n")) << r.output;
+}
+
 TEST_F(rota_check, misuse_is_exit_2) {
   expect_complaint(rota_program({"check", "/nowhere/x.pml"}), {"/nowhere/x.pml", "no such file"});
-  expect_complaint(rota_program({"check", ""}), {"no such file"});
+  expect_complaint(rota_program({"check", ""}), {"PATH", "empty"});
+  sandbox box;
+  expect_complaint(rota_program({"check", box.folder()}), {box.folder(), "no plan file"});
+  auto const note = box.write("note.txt", "hello");
+  expect_complaint(rota_program({"check", box.folder()}), {box.folder(), "no plan file"});
+  expect_complaint(rota_program({"check", own_files() / "json", note}), {note, "no plan file"});
+  expect_complaint(rota_program({"check", own_files() / "json", box.folder()}), {box.folder(), "no plan file"});
   expect_complaint(rota_program({"check"}), {"PATH"});
   expect_complaint(rota_program({"check", "--bogus", "."}), {"--bogus"});
   expect_complaint(rota_program({"bogus"}), {"rota"});
