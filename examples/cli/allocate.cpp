@@ -11,7 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <initializer_list>
 #include <memory>
+#include <set>
 
 namespace rota::cli {
 namespace {
@@ -100,11 +102,11 @@ std::string explain(plan_refusal<vocabulary> const& r, question const& q) {
   return q.where.name(p) + ": " + why;
 }
 
-/// The utility in full precision: the solver counts in steps of 2^-20.
-double exact_utility(question const& q, allocation_atoms<vocabulary> const& atoms) {
-  double sum = 0;
-  for (atom const& x : atoms) sum += q.worth(q.who.name(x.agent), x.plan, x.task).value_or(0);
-  return sum;
+/// What an agent at a task counts: the cell of the table in the solver's steps of 2^-20.
+double counted_utility(question const& q, atom const& x) {
+  auto const cell = q.worth(q.who.name(x.agent), x.plan, x.task);
+  auto const steps = quantise(cell.value_or(0));
+  return steps ? to_double(*steps) : 0;
 }
 
 std::vector<std::string> idle_agents(question const& q, allocation_atoms<vocabulary> const& atoms) {
@@ -129,89 +131,127 @@ ordered_json event_json(question const& q, event<atom> const& e) {
   return {{"added", list(sign::plus)}, {"removed", list(sign::minus)}};
 }
 
-std::string as_json(question const& q, solution<vocabulary> const& s) {
+/// What a running team would do: it does not always change to the best.
+struct decision {
+  bool keep = false;
+  std::string reason;
+};
+
+decision decide(question const& q, workspace& work) {
+  auto const r = reallocate(q.problem, q.current, hysteresis{}, work);
+  auto const gain = r.gain ? number(*r.gain) : std::string();
+  switch (r.reason) {
+  case reallocation_reason::first: return {false, "the team has no allocation yet"};
+  case reallocation_reason::adopted_better: return {false, "gain " + gain + ", more than the hysteresis"};
+  case reallocation_reason::current_invalid: return {false, "the current allocation is not valid"};
+  case reallocation_reason::kept_optimal:
+    return {true, q.current.empty() ? "nothing is better than no task for anybody"
+                                    : "nothing is better than the current allocation"};
+  case reallocation_reason::kept_hysteresis: return {true, "gain " + gain + ", no more than the hysteresis"};
+  case reallocation_reason::kept_unproved: return {true, "nothing better was found"};
+  case reallocation_reason::no_valid_allocation: return {false, "no allocation is valid"};
+  case reallocation_reason::search_incomplete: break;
+  }
+  return {false, "the search ended before it found an allocation"};
+}
+
+std::string as_json(question const& q, solution<vocabulary> const& s, workspace& work) {
   ordered_json out;
   out["plan"] = q.where.name(q.where.plan(s.plan));
-  out["utility"] = exact_utility(q, s.atoms);
+  out["utility"] = s.utility;
   out["optimal"] = s.optimal;
   out["assignment"] = ordered_json::array();
   for (atom const& x : s.atoms) out["assignment"].push_back({{"agent", q.who.name(x.agent)}, {"task", q.task(x)}});
   out["idle"] = idle_agents(q, s.atoms);
   // Without an allocation to compare with, nothing is added or removed.
   out["event"] = event_json(q, q.has_current ? difference(q.current, s.atoms) : event<atom>{});
+  if (q.has_current) {
+    auto const d = decide(q, work);
+    out["decision"] = {{"keep", d.keep}, {"reason", d.reason}};
+  }
   return out.dump() + '\n';
 }
 
-std::string clauses(question const& q, solution<vocabulary> const& s) {
+/// The clauses of validity: what the validator found, and what there is to find.
+std::string clauses(question const& q, solution<vocabulary> const& s, validity_report<vocabulary> const& report) {
   auto const& p = *q.type.find(s.plan);
   auto const& file = q.where.plan(s.plan);
+  auto const pairs = s.atoms.size();
+  auto const of_pairs = [&](auto const& holds) {
+    return std::to_string(std::count_if(s.atoms.begin(), s.atoms.end(), holds)) + " of " + counted(pairs, "pair");
+  };
   std::string counts;
   for (auto const& t : p.tasks()) {
     auto const n = std::count_if(s.atoms.begin(), s.atoms.end(), [&](atom const& x) { return x.task == t.task; });
     counts += (counts.empty() ? "" : ", ") + q.where.name(file, t.task) + ' ' + std::to_string(n) + " in " +
               interval(t.bounds);
   }
+  std::set<vocabulary::agent> employed;
+  for (atom const& x : s.atoms) employed.insert(x.agent);
   auto const idle = idle_agents(q, s.atoms).size();
   std::string out;
-  auto const line = [&](std::string const& head, std::string const& why) {
-    out += "  " + padded(head, 18) + printable(why) + '\n';
+  auto const line = [&](std::string const& head, std::initializer_list<clause> which, std::string const& why) {
+    bool const fails = std::any_of(which.begin(), which.end(), [&](clause c) { return report.violates(c); });
+    out += "  " + padded(head, 18) + (fails ? "FAILS: " : "") + printable(why) + '\n';
   };
-  line("(0) one plan", "every task is one of " + q.where.name(file));
-  line("(1)-(3) counts", counts);
-  line("(4) one task", "no agent has two tasks");
-  line("(5) precondition", !file.precondition           ? "the plan has none"
-                           : file.precondition->empty() ? "taken to hold: the file does not spell it out"
-                                                        : "taken to hold, not evaluated: " + *file.precondition);
-  line("(6) utility", number(exact_utility(q, s.atoms)) + " is at least 0, and no pair is forbidden");
-  line("team size", std::to_string(s.atoms.size()) + " in " + interval(p.team_size()));
-  line("idle", std::to_string(idle) + (q.problem.idle == idling::allowed ? ", and idling is allowed" : " as demanded"));
+  line("(0) one plan", {clause::one_plan, clause::foreign_task, clause::stranger},
+       of_pairs([&](atom const& x) { return x.plan == s.plan && p.find(x.task) != nullptr; }) + " have a task of " +
+           q.where.name(file));
+  line("(1)-(3) counts", {clause::cardinality}, counts);
+  line("(4) one task", {clause::one_task},
+       counted(employed.size(), "agent") + " with a task in " + counted(pairs, "pair"));
+  line("(5) precondition", {clause::precondition},
+       !file.precondition           ? "the plan has none"
+       : file.precondition->empty() ? "taken to hold: the file does not spell it out"
+                                    : "taken to hold, not evaluated: " + *file.precondition);
+  line("(6) utility", {clause::utility, clause::forbidden_pair},
+       number(s.utility) + (s.utility >= 0 ? " is at least 0, and " : " is below 0, and ") +
+           of_pairs([&](atom const& x) { return q.worth(q.who.name(x.agent), x.plan, x.task).has_value(); }) +
+           " have a utility");
+  line("team size", {clause::team_size}, std::to_string(employed.size()) + " in " + interval(p.team_size()));
+  line("role", {clause::role},
+       "not applied: a table names no roles; an empty cell forbids" +
+           (q.where.model.roles.empty() ? std::string()
+                                        : " (" + counted(q.where.model.roles.size(), "role") + " in the files)"));
+  line("idle", {clause::idle_forbidden},
+       std::to_string(idle) +
+           (q.problem.idle == idling::allowed ? ", and idling is allowed" : ", and nobody may idle"));
   return out;
 }
 
-std::string advice(question const& q, workspace& work) {
-  auto const r = reallocate(q.problem, q.current, hysteresis{}, work);
-  auto const gain = r.gain ? " (gain " + number(*r.gain) + ')' : std::string();
-  switch (r.reason) {
-  case reallocation_reason::first: return "a team without an allocation adopts it";
-  case reallocation_reason::adopted_better: return "a running team adopts it" + gain;
-  case reallocation_reason::current_invalid: return "a running team adopts it: the current allocation is not valid";
-  case reallocation_reason::kept_optimal: return "a running team keeps what it has: nothing is better";
-  case reallocation_reason::kept_hysteresis: return "a running team keeps what it has: within the hysteresis" + gain;
-  case reallocation_reason::kept_unproved:
-  case reallocation_reason::no_valid_allocation:
-  case reallocation_reason::search_incomplete: break;
-  }
-  return "the search did not end";
-}
-
-std::string as_text(question const& q, solution<vocabulary> const& s, std::string const& current_file,
-                    workspace& work) {
+std::string as_text(question const& q, solution<vocabulary> const& s, validity_report<vocabulary> const& report,
+                    std::string const& current_file, workspace& work) {
   auto const& p = q.where.plan(s.plan);
   std::string out;
   auto const line = [&](std::string const& text) { out += printable(text) + '\n'; };
   line("plan     " + q.where.name(p) + " (" + std::to_string(p.id) + ")" +
        (q.where.type != nullptr ? ", best of " + counted(q.where.plans.size(), "plan") + " of " + q.where.type->name
                                 : ""));
-  line("utility  " + number(exact_utility(q, s.atoms)) + (s.optimal ? ", proved optimal" : ", not proved optimal"));
+  line("utility  " + number(s.utility) + (s.optimal ? ", proved optimal" : ", not proved optimal"));
   if (s.runner_up)
     line("next     " + q.where.name(q.where.plan(s.runner_up->plan)) + " with " + number(s.runner_up->utility));
   line("assignment");
   std::size_t width = 0;
   for (auto const a : q.problem.participants) width = std::max(width, q.who.name(a).size());
   for (atom const& x : s.atoms)
-    line("  " + padded(q.who.name(x.agent), width) + "  " + q.task(x) + "  " +
-         number(q.worth(q.who.name(x.agent), x.plan, x.task).value_or(0)));
+    line("  " + padded(q.who.name(x.agent), width) + "  " + q.task(x) + "  " + number(counted_utility(q, x)));
   for (auto const& name : idle_agents(q, s.atoms)) line("  " + padded(name, width) + "  (idle)");
-  out += "valid, because\n" + clauses(q, s);
+  out += "valid, because\n" + clauses(q, s, report);
   if (!q.has_current) return out;
-  line("event against " + current_file);
+  line("event from " + current_file + " to this");
   auto const e = difference(q.current, s.atoms);
   if (e.empty()) line("  none: it is the same allocation");
   for (auto const& x : e)
     line(std::string("  ") + (x.value == sign::plus ? "+ " : "- ") + q.who.name(x.atom.agent) + "  " +
          (q.where.type != nullptr ? q.where.name(q.where.plan(x.atom.plan)) + '/' : "") + q.task(x.atom));
   for (auto const& name : q.departed) line("  " + name + " is not in the table: it left");
-  line("  " + advice(q, work));
+  auto const d = decide(q, work);
+  line("decision");
+  line(std::string("  a running team ") +
+       (!d.keep     ? "adopts this: "
+        : e.empty() ? "keeps it: "
+                    : "keeps what it has in " + current_file + ", without the event above: ") +
+       d.reason);
   return out;
 }
 
@@ -240,9 +280,9 @@ outcome run_allocate(options const& o) {
     if (o.json) return {ordered_json{{"plan", nullptr}, {"reason", reason}}.dump() + '\n', negative};
     return {"no valid allocation: " + printable(reason) + '\n', negative};
   }
-  if (!validate(p, *type.find(best->plan), best->atoms))
-    throw std::logic_error("the allocation found is not valid: please report this");
-  return {o.json ? as_json(q, *best) : as_text(q, *best, o.current, work), success};
+  auto const report = validate(p, *type.find(best->plan), best->atoms);
+  if (!report) throw std::logic_error("the allocation found is not valid: please report this");
+  return {o.json ? as_json(q, *best, work) : as_text(q, *best, report, o.current, work), success};
 }
 
 }  // namespace
@@ -250,16 +290,24 @@ outcome run_allocate(options const& o) {
 void add_allocate(CLI::App& program, chosen_command& chosen) {
   auto const o = std::make_shared<options>();
   auto* const command = program.add_subcommand("allocate", "Finds the best allocation of a plan, and says why");
-  command->add_option("--plan", o->plans, "plan files or folders; what they need is found beside them")->required();
-  command->add_option("--plan-type", o->plan_type, "name or id of the plan type whose best plan is wanted");
+  command->add_option("--plan", o->plans, "plan files or folders; what they need is found beside them")
+      ->required()
+      ->check(check_not_empty);
+  command->add_option("--plan-type", o->plan_type, "name or id of the plan type whose best plan is wanted")
+      ->check(check_not_empty);
   command
       ->add_option("--utilities", o->utilities,
                    "CSV: header agent,TASK,... (PLAN/TASK with a plan type), one row per agent, empty = forbidden")
-      ->required();
+      ->required()
+      ->check(check_not_empty);
   command->add_flag("--no-idle", o->no_idle, "every agent must have a task");
-  command->add_option("--current", o->current, "JSON, as --json prints it: the allocation to compare with");
+  command->add_option("--current", o->current, "JSON, as --json prints it: the allocation to compare with")
+      ->check(check_not_empty);
   command->add_flag("--json", o->json, "print JSON");
-  command->footer("Utilities add up over agents; an idle agent counts 0; they are compared in steps of 2^-20.\n"
+  command->footer("Utilities count in steps of 2^-20, each cell rounded to the nearest (0.0000001 counts 0), so that\n"
+                  "equal tables give equal answers everywhere. They add up over agents; an idle agent counts 0.\n"
+                  "The event leads from --current to the best allocation; the decision says whether a running team\n"
+                  "would change at all, given the hysteresis of the plan and that equals change nothing.\n"
                   "Exit status: 0 found, 1 no valid allocation, 2 misuse or a wrong input file.");
   command->callback([o, &chosen] { chosen = [o] { return run_allocate(*o); }; });
 }

@@ -1,6 +1,7 @@
 #include "target.hpp"
 
 #include "command.hpp"
+#include "text.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -12,23 +13,25 @@
 namespace rota::cli {
 namespace {
 
-std::string in_quotes(std::string_view s) { return '"' + std::string(s) + '"'; }
+using alica::detail::in_quotes;
+
+[[noreturn]] void complain_of(alica::model const& m, alica::diagnostic const& d) {
+  auto const errors = m.count(alica::severity::error);
+  auto const more = errors > 1 ? " (and " + std::to_string(errors - 1) + " more: rota check)" : "";
+  throw input_error(d.file, d.place, d.reason + (d.id ? " (id " + std::to_string(*d.id) + ')' : "") + more);
+}
 
 /// Says why there is nothing to allocate for: the first error of the files, if they have one, else what is missing.
 [[noreturn]] void give_up(alica::model const& m, std::string const& files, std::string const& missing) {
-  auto const errors = m.count(alica::severity::error);
-  for (alica::diagnostic const& d : m.diagnostics) {
-    if (d.severity != alica::severity::error) continue;
-    auto const more = errors > 1 ? " (and " + std::to_string(errors - 1) + " more: rota check)" : "";
-    throw input_error(d.file, d.place, d.reason + (d.id ? " (id " + std::to_string(*d.id) + ')' : "") + more);
-  }
+  for (alica::diagnostic const& d : m.diagnostics)
+    if (d.severity == alica::severity::error) complain_of(m, d);
   throw input_error(files, "", missing);
 }
 
-std::string joined(std::vector<std::string> const& all) {
-  std::string out;
-  for (auto const& s : all) out += (out.empty() ? "" : ", ") + s;
-  return out;
+/// Throws for an error in any of these files.
+void require_sound(alica::model const& m, std::set<std::string> const& files) {
+  for (alica::diagnostic const& d : m.diagnostics)
+    if (d.severity == alica::severity::error && files.contains(d.file)) complain_of(m, d);
 }
 
 }  // namespace
@@ -56,39 +59,67 @@ std::optional<vocabulary::task> target::find_task(alica::plan const& p, std::str
 
 std::unique_ptr<target const> find_target(std::vector<std::string> const& files, std::string const& plan_type) {
   std::vector<std::filesystem::path> paths;
+  std::set<std::string> named;  // one by one, not by a folder that holds them
+  bool names_a_type = false;
   for (auto const& f : files) {
     std::error_code error;
     if (!std::filesystem::exists(f, error)) throw input_error(f.empty() ? "\"\"" : f, "", "no such file or folder");
     paths.emplace_back(f);
+    if (std::filesystem::is_directory(f, error)) continue;
+    auto const kind = alica::detail::kind_of(f);
+    if (kind == alica::file_kind::none) throw input_error(f, "", std::string(alica::detail::why_ignored(f)));
+    names_a_type = names_a_type || kind == alica::file_kind::plan_type;
+    named.insert(f);
   }
   auto t = std::make_unique<target>();
   t->model = alica::load(paths);
   auto const& m = t->model;
+  require_sound(m, named);
+
+  std::set<std::string> given;
+  std::set<std::string> refused_plans;
+  for (auto const& d : m.documents) {
+    if (d.followed) continue;
+    given.insert(d.file);
+    if (d.kind == alica::file_kind::plan && d.status == alica::file_status::refused) refused_plans.insert(d.file);
+  }
   if (plan_type.empty()) {
-    std::set<std::string> given;
-    for (auto const& d : m.documents)
-      if (!d.followed) given.insert(d.file);
-    std::vector<std::string> names;
+    std::vector<std::string> plans;
     for (auto const& p : m.plans) {
       if (!given.contains(p.file)) continue;
       t->plans.push_back(&p);
-      names.push_back(p.name);
+      plans.push_back(p.name);
     }
-    if (t->plans.empty()) give_up(m, joined(files), "no plan in it");
-    if (t->plans.size() > 1)
+    std::vector<std::string> types;
+    for (auto const& pt : m.plan_types) {
+      if (!given.contains(pt.file)) continue;
+      t->type = &pt;
+      types.push_back(pt.name);
+    }
+    if (types.size() > 1 && (names_a_type || plans.empty()))
       throw input_error(joined(files), "",
-                        std::to_string(names.size()) + " plans (" + joined(names) +
-                            "): give one, or --plan-type with the plan type that offers them");
-    return t;
+                        std::to_string(types.size()) + " plan types (" + joined(types) + "): name one by --plan-type");
+    if (types.size() != 1 || !(names_a_type || plans.empty())) {
+      t->type = nullptr;
+      if (plans.empty()) give_up(m, joined(files), "no plan in it");
+      if (plans.size() > 1)
+        throw input_error(joined(files), "",
+                          std::to_string(plans.size()) + " plans (" + joined(plans) +
+                              "): give one, or --plan-type with the plan type that offers them");
+      require_sound(m, refused_plans);  // the folder holds another plan, which may be the one that was meant
+      return t;
+    }
+  } else {
+    for (auto const& pt : m.plan_types) {
+      if (pt.name != plan_type && std::to_string(pt.id) != plan_type) continue;
+      if (t->type != nullptr)
+        throw input_error(joined(files), "",
+                          "two plan types are called " + in_quotes(plan_type) + ": name one by its id");
+      t->type = &pt;
+    }
+    if (t->type == nullptr) give_up(m, joined(files), "no plan type is called " + in_quotes(plan_type));
   }
-  for (auto const& pt : m.plan_types) {
-    if (pt.name != plan_type && std::to_string(pt.id) != plan_type) continue;
-    if (t->type != nullptr)
-      throw input_error(joined(files), "",
-                        "two plan types are called " + in_quotes(plan_type) + ": name one by its id");
-    t->type = &pt;
-  }
-  if (t->type == nullptr) give_up(m, joined(files), "no plan type is called " + in_quotes(plan_type));
+  t->plans.clear();
   for (auto const& c : t->type->plans)
     if (c.activated) t->plans.push_back(m.find_plan(t->type->root, c.plan));
   return t;
@@ -121,6 +152,12 @@ utilities::utilities(utility_table table, target const& t, std::string const& fi
       throw input_error(file, c.place(), "no task is called " + in_quotes(c.text) + "; there are " + joined(names));
     columns_.emplace(at->second, i);
   }
+  std::vector<std::string> missing;
+  for (auto const& name : names)
+    if (!columns_.contains(known.at(name))) missing.push_back(name);
+  if (!missing.empty())
+    throw input_error(file, "1:1",
+                      "no column for " + joined(missing) + "; to forbid a task to everybody, leave its cells empty");
   for (std::size_t i = 0; i < table_.agents.size(); ++i) rows_.emplace(table_.agents[i], i);
 }
 
@@ -143,19 +180,32 @@ named_allocation read_allocation(std::string const& file) {
   };
   need(tree.is_object(), "/", "not an allocation: a JSON object is expected");
   for (auto const& [key, value] : tree.items()) {
-    static std::set<std::string, std::less<>> const keys = {"plan", "utility", "optimal", "assignment",
-                                                            "idle", "event",   "reason"};
-    need(keys.contains(key), '/' + key, "an allocation has no such key");
+    using type = nlohmann::json::value_t;
+    // What the program prints beside the allocation itself is not used, but it must be what it claims to be.
+    static std::map<std::string, type, std::less<>> const keys = {
+        {"plan", type::discarded},   {"utility", type::number_float}, {"optimal", type::boolean},
+        {"assignment", type::array}, {"idle", type::array},           {"event", type::object},
+        {"decision", type::object},  {"reason", type::string}};
+    auto const at = keys.find(key);
+    need(at != keys.end(), '/' + key, "an allocation has no such key");
+    bool const fits = at->second == type::discarded || at->second == value.type() ||
+                      (at->second == type::number_float && value.is_number());
+    need(fits, '/' + key,
+         at->second == type::number_float ? "not a number"
+         : at->second == type::boolean    ? "neither true nor false"
+         : at->second == type::array      ? "not a list"
+         : at->second == type::string     ? "not a text"
+                                          : "not an object");
   }
   need(tree.contains("plan"), "/", "the key \"plan\" is missing");
   named_allocation a;
   auto const& plan = tree["plan"];
   need(plan.is_null() || plan.is_string(), "/plan", "neither a name nor null");
   if (plan.is_string()) a.plan = plan.get<std::string>();
+  need(!a.plan || !a.plan->empty(), "/plan", "a plan without a name");
   need(tree.contains("assignment") || !a.plan, "/", "the key \"assignment\" is missing");
   if (!tree.contains("assignment")) return a;
   auto const& all = tree["assignment"];
-  need(all.is_array(), "/assignment", "not a list");
   need(a.plan || all.empty(), "/assignment", "tasks without a plan");
   std::set<std::string> agents;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -165,11 +215,20 @@ named_allocation read_allocation(std::string const& file) {
       need(key == "agent" || key == "task", place + '/' + key, "only \"agent\" and \"task\" belong here");
     for (auto const* key : {"agent", "task"}) {
       need(all[i].contains(key), place, "the key \"" + std::string(key) + "\" is missing");
-      need(all[i][key].is_string(), place + '/' + key, "not a name");
+      need(all[i][key].is_string() && !all[i][key].get_ref<std::string const&>().empty(), place + '/' + key,
+           "not a name");
     }
     a.assignment.push_back({all[i]["agent"].get<std::string>(), all[i]["task"].get<std::string>(), place});
     need(agents.insert(a.assignment.back().agent).second, place,
          "the agent " + in_quotes(a.assignment.back().agent) + " has two tasks");
+  }
+  if (!tree.contains("idle")) return a;
+  auto const& idle = tree["idle"];
+  for (std::size_t i = 0; i < idle.size(); ++i) {
+    auto const place = "/idle/" + std::to_string(i);
+    need(idle[i].is_string() && !idle[i].get_ref<std::string const&>().empty(), place, "not a name");
+    auto const name = idle[i].get<std::string>();
+    need(agents.insert(name).second, place, "the agent " + in_quotes(name) + " stands twice");
   }
   return a;
 }

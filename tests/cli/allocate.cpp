@@ -33,9 +33,11 @@ TEST_F(rota_allocate, says_why_and_what_changes) {
   auto const r = rota_program({"allocate", "--plan", shipped(play), "--utilities", shipped("utilities.csv"),
                                "--current", shipped("current.json")});
   EXPECT_EQ(r.status, 0) << r.complaint;
-  for (auto const* part : {"plan     SoccerPlay (2011030100100)\n", "utility  7.25, proved optimal\n",
-                           "  r2  Attack  2.25\n", "Attack 1 in 1..1, Defend 2 in 1..2, Support 2 in 0..2", "5 in 2..5",
-                           "  + r2  Attack\n", "  - r3  Attack\n", "a running team adopts it (gain "})
+  for (auto const* part :
+       {"plan     SoccerPlay (2011030100100)\n", "utility  7.25, proved optimal\n", "  r2  Attack  2.25\n",
+        "Attack 1 in 1..1, Defend 2 in 1..2, Support 2 in 0..2", "5 in 2..5", "5 of 5 pairs have a task of SoccerPlay",
+        "5 agents with a task in 5 pairs", "role              not applied", "0, and idling is allowed",
+        "  + r2  Attack\n", "  - r3  Attack\n", "a running team adopts this: gain "})
     EXPECT_NE(r.output.find(part), std::string::npos) << part << "not in:\n" << r.output;
 }
 
@@ -72,7 +74,90 @@ TEST_F(rota_allocate, its_output_is_a_current_allocation) {
   again.insert(again.end(), {"--current", box.write("now.json", first.output)});
   auto const second = rota_program(again);
   EXPECT_EQ(second.status, 0) << second.complaint;
-  EXPECT_EQ(second.output, first.output) << "nothing changes, so the event is empty";
+  auto expected = json::parse(first.output);
+  expected["decision"] = {{"keep", true}, {"reason", "nothing is better than the current allocation"}};
+  EXPECT_EQ(json::parse(second.output), expected) << "nothing changes, so the event is empty";
+  again.back() = box.write("then.json", second.output);
+  EXPECT_EQ(rota_program(again).output, second.output) << "what the program prints, it reads";
+}
+
+// The event leads to the best allocation; whether a running team would go there is another question.
+TEST_F(rota_allocate, says_whether_a_running_team_would_change) {
+  sandbox box;
+  auto const now = box.write("now.json", R"({"plan": "SoccerPlay", "assignment": [{"agent": "a", "task": "Attack"},
+                                              {"agent": "b", "task": "Defend"}]})");
+  auto const ask = [&](std::string const& rows, bool in_json) {
+    auto const csv = box.write("u.csv", "agent,Attack,Defend,Support\n" + rows);
+    std::vector<std::string> question = {"allocate", "--plan", shipped(play), "--utilities", csv, "--current", now};
+    if (in_json) question.push_back("--json");
+    auto const r = rota_program(question);
+    EXPECT_EQ(r.status, 0) << r.complaint;
+    return r.output;
+  };
+  auto const expect = [&](std::string const& rows, std::size_t changes, bool keep, std::string const& reason) {
+    SCOPED_TRACE(rows);
+    auto const j = json::parse(ask(rows, true), nullptr, false);
+    ASSERT_TRUE(j.is_object());
+    EXPECT_EQ(j["event"]["added"].size(), changes);
+    EXPECT_EQ(j["event"]["removed"].size(), changes);
+    EXPECT_EQ(j["decision"], json({{"keep", keep}, {"reason", reason}}));
+    auto const text = ask(rows, false);
+    EXPECT_NE(text.find(keep && changes == 0 ? "keeps it: "
+                        : keep               ? "without the event above: "
+                                             : "adopts this: "),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find(reason), std::string::npos) << text;
+  };
+  expect("a,1,1,\nb,1,1,\n", 0, true, "nothing is better than the current allocation");
+  expect("a,1,1.0625,\nb,1,1,\n", 2, true, "gain 0.0625, no more than the hysteresis");
+  expect("a,1,1.5,\nb,1,1,\n", 2, false, "gain 0.5, more than the hysteresis");
+  expect("a,,1,\nb,1,1,\n", 2, false, "the current allocation is not valid");
+}
+
+TEST_F(rota_allocate, of_equals_a_running_team_keeps_its_own) {
+  sandbox box;
+  auto const now = box.write("now.json", R"({"plan": "SoccerPlay", "assignment": [{"agent": "b", "task": "Attack"},
+                                              {"agent": "a", "task": "Defend"}]})");
+  auto const csv = box.write("u.csv", "agent,Attack,Defend,Support\na,1,1,\nb,1,1,\n");
+  auto const r = rota_program({"allocate", "--plan", shipped(play), "--utilities", csv, "--current", now, "--json"});
+  ASSERT_EQ(r.status, 0) << r.complaint;
+  auto const j = json::parse(r.output);
+  EXPECT_EQ(j["event"]["added"].size(), 2u) << "the first of equals is the best";
+  EXPECT_EQ(j["decision"]["keep"], true);
+}
+
+// The solver counts in steps of 2^-20; what is printed must be what was counted.
+TEST_F(rota_allocate, utilities_off_the_grid_are_those_that_were_counted) {
+  sandbox box;
+  auto const ask = [&](std::string const& rows, bool in_json = true) {
+    auto const csv = box.write("u.csv", "agent,Attack,Defend,Support\n" + rows);
+    std::vector<std::string> question = {"allocate", "--plan", shipped(play), "--utilities", csv};
+    if (in_json) question.push_back("--json");
+    return rota_program(question);
+  };
+  for (std::string const x : {"1e-7", "-1e-7", "4e-7", "-4e-7", "1e-300", "-0.0"}) {
+    auto const r = ask("a," + x + ",,\nb,," + x + ",\n");
+    EXPECT_EQ(r.status, 0) << r.complaint;
+    EXPECT_NE(r.output.find(R"("utility":0.0,)"), std::string::npos) << x << " counts 0: " << r.output;
+    auto const text = ask("a," + x + ",,\nb,," + x + ",\n", false).output;
+    EXPECT_NE(text.find("utility  0, proved"), std::string::npos) << text;
+    EXPECT_NE(text.find("  a  Attack  0\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("  0 is at least 0, and 2 of 2 pairs have a utility"), std::string::npos) << text;
+  }
+  auto const third = json::parse(ask("a,0.333333333,,\nb,,0.1,\n").output, nullptr, false);
+  EXPECT_EQ(third["utility"], (349525 + 104858) / 1048576.0) << "the sum of the rounded cells";
+  EXPECT_EQ(ask("a,-6e-7,,\nb,,0,\n").status, 1) << "one step below 0";
+}
+
+TEST_F(rota_allocate, a_plan_type_that_is_the_only_one_need_not_be_named) {
+  auto const csv = shipped("utilities-of-both-plans.csv");
+  auto const named =
+      rota_program({"allocate", "--plan", shipped("json"), "--plan-type", "Soccer", "--utilities", csv, "--json"});
+  auto const r =
+      rota_program({"allocate", "--plan", shipped("json/etc/plans/Soccer.pty"), "--utilities", csv, "--json"});
+  EXPECT_EQ(r.status, 0) << r.complaint;
+  EXPECT_EQ(r.output, named.output);
 }
 
 TEST_F(rota_allocate, an_agent_that_left_is_removed) {
@@ -123,6 +208,10 @@ TEST_F(rota_allocate, wrong_tables_are_one_line_with_line_and_column) {
   expect("agent,Attack,Keep\n", "1:14", "no task is called \"Keep\"; there are Attack, Defend, Support");
   expect("agent,Attack,Attack\n", "1:14", "\"Attack\" stands twice");
   expect("agent,SoccerPlay/Attack\n", "1:7", "no task is called");
+  expect("agent,Attack,Support\nr1,1,2\n", "1:1", "no column for Defend; ");
+  expect("agent,Attack\n", "1:1", "no column for Defend, Support; ");
+  expect("agent,Attack,Defend,Support\rr1,1,2,3\rr2,1,2,3\r", "1:28", "a carriage return alone");
+  expect(head + "r1,1,2,\"3\"\rr2,1,2,3\n", "2:11", "a carriage return alone");
   expect(head + "r1,1,2\n", "2:6", "3 cells, but the header has 4");
   expect(head + "r1,1,2,3,4\n", "2:10", "5 cells");
   expect(head + "r1,1,2,3\n\nr2,1,2,3\n", "3:1", "1 cells");
@@ -169,6 +258,15 @@ TEST_F(rota_allocate, wrong_current_allocations_are_one_line_with_a_place) {
       R"({"plan": "SoccerPlay", "assignment": [{"agent": "r1", "task": "Attack"}, {"agent": "r1", "task": "Defend"}]})",
       "/assignment/1", "two tasks");
   expect(R"({"plan": "Chess", "assignment": []})", "/plan", "no plan \"Chess\"");
+  expect(R"({"plan": "", "assignment": []})", "/plan", "without a name");
+  expect(R"({"plan": "SoccerPlay", "assignment": [{"agent": "", "task": "Attack"}]})", "/assignment/0/agent",
+         "not a name");
+  expect(R"({"plan": "SoccerPlay", "assignment": [{"agent": "r1", "task": ""}]})", "/assignment/0/task", "not a name");
+  expect(R"({"plan": "SoccerPlay", "assignment": [], "idle": [5]})", "/idle/0", "not a name");
+  expect(R"({"plan": "SoccerPlay", "assignment": [], "idle": ["r1", "r1"]})", "/idle/1", "stands twice");
+  expect(R"({"plan": "SoccerPlay", "assignment": [], "utility": "5"})", "/utility", "not a number");
+  expect(R"({"plan": "SoccerPlay", "assignment": [], "optimal": 1})", "/optimal", "neither true nor false");
+  expect(R"({"plan": "SoccerPlay", "assignment": [], "event": []})", "/event", "not an object");
   expect(R"({"plan": null, "assignment": [{"agent": "r1", "task": "Attack"}]})", "/assignment", "without a plan");
   expect(R"({"plan": "SoccerPlay", "assigment": []})", "/assigment", "no such key");
   expect(R"({"plan": "SoccerPlay", "plan": "SoccerPlay"})", "/plan", "twice");
@@ -195,6 +293,47 @@ TEST_F(rota_allocate, wrong_plans_are_one_line) {
   auto const broken = box.write("etc/p.pml", R"({"id": 10, "entryPoints": [{"id": 11, "task": "t.tsk#2"}]})");
   expect_complaint(ask({"--plan", broken}), {broken, "/entryPoints/0/task", "t.tsk#2 is not found", "id 11"});
   expect_complaint(ask({"--plan", box.write("etc/q.pml", "{")}), {"q.pml:1:2", "cut off"});
+  // One that is broken is not left out for another that is not.
+  expect_complaint(ask({"--plan", shipped(play), "--plan", box.path("etc/q.pml")}), {"q.pml:1:2", "cut off"});
+  fs::remove(box.path("etc/p.pml"));
+  fs::copy(own_files() / "json" / "etc" / "plans" / "SoccerPlay.pml", box.path("etc/good.pml"));
+  fs::copy(own_files() / "json" / "etc" / "tasks", box.path("etc/tasks"));
+  expect_complaint(ask({"--plan", box.folder()}), {"q.pml:1:2", "cut off"});
+  fs::remove(box.path("etc/q.pml"));
+  EXPECT_EQ(ask({"--plan", box.folder()}).status, 0);
+  expect_complaint(ask({"--plan", shipped(play), "--plan", box.write("note.txt", "x")}), {"note.txt", "no plan file"});
+}
+
+TEST_F(rota_allocate, empty_values_are_mistakes) {
+  std::vector<std::string> const sound = {"allocate", "--plan", shipped(play), "--utilities", shipped("utilities.csv")};
+  for (std::string const option : {"--plan", "--plan-type", "--current", "--utilities"}) {
+    auto question = sound;
+    if (option == "--plan") question.erase(question.begin() + 1, question.begin() + 3);
+    if (option == "--utilities") question.resize(3);
+    question.insert(question.end(), {option, ""});
+    expect_complaint(rota_program(question), {option, "empty"});
+  }
+}
+
+TEST_F(rota_allocate, complaints_stay_lines_that_people_can_read) {
+  sandbox box;
+  std::string entries;
+  std::string tasks;
+  for (int i = 0; i < 500; ++i) {
+    auto const n = std::to_string(i);
+    tasks += (i == 0 ? "" : ",") + std::string(R"({"id": 1)") + n + R"(0, "name": "A task of quite some length )" + n +
+             "\"}";
+    entries += (i == 0 ? "" : ",") + std::string(R"({"id": 2)") + n + R"(0, "task": "t.tsk#1)" + n +
+               R"(0", "minCardinality": 0, "maxCardinality": 1})";
+  }
+  box.write("etc/t.tsk", R"({"id": 1, "tasks": [)" + tasks + "]}");
+  auto const plan = box.write("etc/p.pml", R"({"id": 2, "name": "P", "entryPoints": [)" + entries + "]}");
+  auto const csv = box.write("u.csv", "agent,\xE2\x80\xAE"
+                                      "evil\xC2\x9B"
+                                      "2J\xE2\x81\xA6\nr1,1\n");
+  auto const r = rota_program({"allocate", "--plan", plan, "--utilities", csv});
+  expect_complaint(r, {"no task is called", "\\u202eevil\\u009b2J\\u2066", "500 in all"});
+  EXPECT_LT(r.complaint.size(), 2100u);
 }
 
 // --- AttackPlay, against plain enumeration -----------------------------------------------------------------------
