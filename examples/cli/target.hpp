@@ -34,7 +34,8 @@ struct target {
   [[nodiscard]] std::optional<vocabulary::task> find_task(alica::plan const& p, std::string const& label) const;
 };
 
-/// Loads the files and finds the plan, or the plan type of this name or id. Throws `input_error`.
+/// Loads the files and finds the plan type of this name or id; without one (empty), the only plan type if a file names
+/// it or there is no plan, else the only plan. Files given by name must be sound. Throws `input_error`.
 [[nodiscard]] std::unique_ptr<target const> find_target(std::vector<std::string> const& files,
                                                         std::string const& plan_type);
 
