@@ -67,7 +67,7 @@ TEST(authority, a_smaller_claim_challenges_the_greater_agent) {
 
 TEST(authority, a_leader_answers_a_smaller_claim_at_once_and_yields_to_a_greater_one) {
   authority a;
-  a.lead(soccer::plan_type::play, attacker(8), of(8), 1, start, reign);
+  a.lead(soccer::plan_type::play, attacker(8), of(8), 1, start, start, reign);
   EXPECT_TRUE(a.next_claim(start, period));
   EXPECT_FALSE(a.next_claim(start, period));
   EXPECT_EQ(a.hear(claim_by(7), of(8), start), claim_outcome::outranked);
@@ -79,7 +79,7 @@ TEST(authority, a_leader_answers_a_smaller_claim_at_once_and_yields_to_a_greater
 
 TEST(authority, a_leader_repeats_as_long_as_it_rules_and_says_what_is_left) {
   authority a;
-  a.lead(soccer::plan_type::play, attacker(8), of(8), 1, start, reign);
+  a.lead(soccer::plan_type::play, attacker(8), of(8), 1, start, start, reign);
   int repeats = 0;
   for (auto now = start; now < start + rota::seconds(3); now = now + milliseconds(10)) {
     a.expire(now);
@@ -95,7 +95,7 @@ TEST(authority, a_leader_repeats_as_long_as_it_rules_and_says_what_is_left) {
 
 TEST(authority, a_change_of_mind_is_a_new_version_due_at_once) {
   authority leader, follower;
-  leader.lead(soccer::plan_type::play, attacker(8), of(8), 1, start, reign);
+  leader.lead(soccer::plan_type::play, attacker(8), of(8), 1, start, start, reign);
   auto const first = *leader.next_claim(start, period);
   leader.revise(attacker(8), start);
   EXPECT_FALSE(leader.next_claim(start, period)) << "nothing changed";
@@ -151,7 +151,7 @@ TEST(authority, invariants_over_every_interleaving) {
     auto const key = [](claim const& c) { return std::tuple(c.leader, c.incarnation, c.number); };
     auto const lead = [&](int n) {
       auto& m = members[static_cast<std::size_t>(n)];
-      m.rule.lead(soccer::plan_type::play, attacker(*rc::gen::inRange(1, team + 1)), of(n), m.incarnation, now, reign);
+      m.rule.lead(soccer::plan_type::play, attacker(*rc::gen::inRange(1, team + 1)), of(n), m.incarnation, now, now, reign);
       leader_expiry[key(m.rule.current())] = now + reign;
     };
 
@@ -224,7 +224,7 @@ TEST(authority, one_round_without_loss_settles_on_the_greatest_claimant) {
     int greatest = 0;
     for (int n = 1; n <= team; ++n) {
       if (!*rc::gen::arbitrary<bool>().as("claims")) continue;
-      members[static_cast<std::size_t>(n)].lead(soccer::plan_type::play, attacker(n), of(n), 1, start, reign);
+      members[static_cast<std::size_t>(n)].lead(soccer::plan_type::play, attacker(n), of(n), 1, start, start, reign);
       greatest = n;
     }
     RC_PRE(greatest > 0);
@@ -240,7 +240,7 @@ TEST(authority, one_round_without_loss_settles_on_the_greatest_claimant) {
           if (other == n) continue;
           auto& rule = members[static_cast<std::size_t>(other)];
           if (rule.hear(*c, of(other), start) == claim_outcome::challenged) {
-            rule.lead(soccer::plan_type::play, attacker(other), of(other), 1, start, reign);
+            rule.lead(soccer::plan_type::play, attacker(other), of(other), 1, start, start, reign);
             greatest = std::max(greatest, other);
           }
         }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <iterator>
+#include <type_traits>
 #include <utility>
 
 namespace rota {
@@ -26,23 +27,25 @@ public:
   using size_type = std::size_t;
   using iterator = T*;
   using const_iterator = T const*;
+  static constexpr bool nothrow_movable = std::is_nothrow_move_assignable_v<T>;
 
   constexpr small_vector() = default;
-  constexpr small_vector(std::initializer_list<T> items) { assign(items.begin(), items.end()); }
+  // Delegating, so that the destructor runs when copying an element throws.
+  constexpr small_vector(std::initializer_list<T> items) : small_vector(items.begin(), items.end()) {}
   template <std::input_iterator I, std::sentinel_for<I> S>
-  constexpr small_vector(I first, S last) {
+  constexpr small_vector(I first, S last) : small_vector() {
     assign(first, last);
   }
 
-  constexpr small_vector(small_vector const& other) { assign(other.begin(), other.end()); }
-  constexpr small_vector(small_vector&& other) noexcept { take(other); }
+  constexpr small_vector(small_vector const& other) : small_vector(other.begin(), other.end()) {}
+  constexpr small_vector(small_vector&& other) noexcept(nothrow_movable) : small_vector() { take(other); }
   constexpr small_vector& operator=(small_vector const& other) {
     if (this != &other) assign(other.begin(), other.end());
     return *this;
   }
-  constexpr small_vector& operator=(small_vector&& other) noexcept {
+  constexpr small_vector& operator=(small_vector&& other) noexcept(nothrow_movable) {
     if (this != &other) {
-      delete[] heap_;
+      delete[] std::exchange(heap_, nullptr);
       take(other);
     }
     return *this;
@@ -76,10 +79,12 @@ public:
 
   constexpr void reserve(std::size_t wanted) {
     if (wanted <= capacity_) return;
-    T* bigger = new T[wanted]{};
-    std::move(begin(), end(), bigger);
-    delete[] heap_;
-    heap_ = bigger;
+    struct owner {  // std::unique_ptr works in no constant expression before C++23
+      T* items;
+      constexpr ~owner() { delete[] items; }
+    } bigger{new T[wanted]{}};
+    std::move(begin(), end(), bigger.items);
+    std::swap(heap_, bigger.items);
     capacity_ = wanted;
   }
 
@@ -138,7 +143,7 @@ public:
   }
 
 private:
-  constexpr void take(small_vector& other) noexcept {
+  constexpr void take(small_vector& other) noexcept(nothrow_movable) {
     heap_ = std::exchange(other.heap_, nullptr);
     capacity_ = std::exchange(other.capacity_, N);
     size_ = std::exchange(other.size_, 0);

@@ -8,8 +8,11 @@
 #include <rota/team/monitor.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace rota {
@@ -28,9 +31,11 @@ public:
   using type_id = typename V::plan_type;
 
   /// `roster`: every agent that may ever be heard of; messages of others are refused. One's own id may be left out.
+  /// @pre periods are positive; 0 < reign ≤ max_reign, or nobody would obey
   agent(agent_id self, std::span<agent_id const> roster, agent_options const& options = {})
       : self_(self), options_(options), next_plan_message_(options.first_message) {
     ROTA_ASSERT(options.message_period > duration{} && options.claim_period > duration{});
+    ROTA_ASSERT(options.reign > duration{} && options.reign <= options.max_reign);
     std::vector<agent_id> sorted(roster.begin(), roster.end());
     std::sort(sorted.begin(), sorted.end());
     sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
@@ -66,9 +71,10 @@ public:
     track* t = executed(type);
     if (!t) return false;
     t->executing = false;
+    t->lapsed = false;
     t->believed = {};
     t->monitor.clear();
-    t->rule.end();
+    t->rule.leading() ? t->rule.end() : t->rule.release();
     return true;
   }
 
@@ -101,7 +107,9 @@ public:
 
   /// The sender is trusted about itself and about nobody else. Per executed type this is one of the four cases of
   /// section 4; while somebody rules the type, the task in the message is ignored and only coming and going counts.
-  /// O(types of the message · log types executed).
+  /// Numbers only grow: a sender that once sent a number out of reach stays unheard until it restarts with a greater
+  /// incarnation. Whether a message is genuine is the transport's business.
+  /// O(types of the message · types executed).
   reception<V> receive(plan_message<V> const& m, instant now) {
     if (auto const why = examine(m); why != refusal::none) return {verdict::refused, why, {}, {}};
     peer& sender = *find_peer(m.sender);
@@ -111,6 +119,7 @@ public:
     for (track& t : tracks_) {
       if (!t.executing) continue;
       expire(t, now);
+      bury_former_life(t, m);
       auto const said = std::find_if(m.types.begin(), m.types.end(),
                                      [&](participation<V> const& p) { return p.type == t.names.type(); });
       bool const takes_part = said != m.types.end();
@@ -120,8 +129,9 @@ public:
         e_m = dismiss(t, m.sender);
       } else {
         t.believed.admit(m.sender, now);
-        if (said->place) t.believed.set_state(m.sender, said->place->state);
-        if (!t.rule.active()) e_m = t.believed.place(m.sender, atom_of(m.sender, said->place));
+        auto const told = atom_of(m.sender, said->place);
+        if (!t.rule.active()) e_m = t.believed.place(m.sender, told);
+        if (told && told == t.believed.part(m.sender)) t.believed.set_state(m.sender, said->place->state);
       }
       auto const after = t.believed.part(m.sender);
       if (!t.rule.active()) t.monitor.on_message(m.sender, before, after, now);
@@ -130,9 +140,12 @@ public:
     return r;
   }
 
-  /// Obeys a greater claim, answers a smaller one with its own, and drops what has expired. O(|claim| log roster).
+  /// Obeys a greater claim, answers a smaller one with its own, and drops what has expired. What the leader says is how
+  /// it is: each copy of the claim in force restores what coming, going or silence has changed at this follower since.
+  /// Whether the allocation is valid is the leader's judgement, under its own beliefs. O(|claim| log roster).
   reception<V> receive(claim<V> const& c, instant now) {
     if (auto const why = examine(c); why != refusal::none) return {verdict::refused, why, {}, {}};
+    if (c.incarnation < find_peer(c.leader)->last.incarnation) return {verdict::stale, refusal::none, {}, {}};
     track& t = *executed(c.type);
     expire(t, now);
     reception<V> r;
@@ -140,14 +153,13 @@ public:
     auto const outcome = t.rule.hear(c, my_stamp(), now);
     r.claim = outcome;
     if (outcome == claim_outcome::challenged) {
-      lead(t, now);
-    } else if (outcome == claim_outcome::adopted || outcome == claim_outcome::revised) {
+      admit_all(t, c, now);
+      lead(t, now, now + options_.claim_period);  // unless it deliberates before, as it should
+    } else if (t.rule.obeying() && outcome != claim_outcome::outranked && outcome != claim_outcome::expired) {
       if (!was_active) t.monitor.clear();
-      if (!t.believed.takes_part(c.leader)) t.believed.admit(c.leader, now);
-      for (in<V> const& x : c.atoms)
-        if (!t.believed.takes_part(x.agent)) t.believed.admit(x.agent, now);
-      auto e = impose(t, c.atoms);
-      if (!e.empty()) r.changes.push_back({c.type, message_case::moved, std::move(e)});
+      admit_all(t, t.rule.current(), now);
+      auto e = impose(t, t.rule.current().atoms);
+      if (!e.empty()) r.changes.push_back({c.type, message_case::imposed, std::move(e)});
     }
     return r;
   }
@@ -160,7 +172,8 @@ public:
     decision<V> d;
     track* t = executed(pt.id());
     if (!t) return d;
-    d.reign_ended = expire(*t, now);
+    expire(*t, now);
+    d.reign_ended = std::exchange(t->lapsed, false);
     d.deleted = delete_silent(*t, now);
     if (t->rule.obeying()) {
       d.reason = decision_reason::obeyed;
@@ -184,7 +197,7 @@ public:
     d.cycles = v.cycles;
     d.detected = v.detected;
     if (v.detected && options_.resolution) {
-      lead(*t, now);
+      lead(*t, now, now);
       d.reign_began = true;
     }
     return d;
@@ -199,8 +212,10 @@ public:
       if (auto c = t.rule.next_claim(now, options_.claim_period)) return message<V>{*std::move(c)};
     }
     if (now < next_plan_message_) return std::nullopt;
-    auto const missed = (now - next_plan_message_).ns / options_.message_period.ns;
-    next_plan_message_ = next_plan_message_ + options_.message_period * (missed + 1);
+    // Unsigned, as the first slot may be further back than a duration reaches.
+    auto const late = static_cast<std::uint64_t>(now.ns) - static_cast<std::uint64_t>(next_plan_message_.ns);
+    auto const period = static_cast<std::uint64_t>(options_.message_period.ns);
+    next_plan_message_ = now + nanoseconds(static_cast<std::int64_t>(period - late % period));
     return message<V>{snapshot()};
   }
 
@@ -227,6 +242,7 @@ private:
     Monitor monitor;
     authority<V> rule;
     bool executing = false;
+    bool lapsed = false;  // a reign has ended since the last deliberation
     friend bool operator==(track const&, track const&) = default;
   };
 
@@ -272,6 +288,7 @@ private:
     if (!options_.resolution) return refusal::resolution_off;
     auto const* t = executed(c.type);
     if (!t) return refusal::not_executed;
+    if (t->rule.contradicts(c)) return refusal::foreign_stamp;
     if (c.remaining <= duration{} || c.remaining > options_.max_reign) return refusal::remaining_time;
     for (auto const* x = c.atoms.begin(); x != c.atoms.end(); ++x) {
       if (!(x->agent == self_) && !find_peer(x->agent)) return refusal::stranger;
@@ -283,23 +300,40 @@ private:
   }
 
   /// Rule vi of the monitor: nothing that happened before or during authority counts afterwards.
-  bool expire(track& t, instant now) {
-    if (!t.rule.expire(now)) return false;
+  void expire(track& t, instant now) {
+    if (t.rule.expire(now)) normalise(t);
+  }
+  void normalise(track& t) {
     t.monitor.clear();
-    return true;
+    t.lapsed = true;
   }
 
-  void lead(track& t, instant now) {
+  void lead(track& t, instant now, instant due) {
     t.monitor.clear();
-    t.rule.lead(t.names.type(), t.believed.atoms(), my_stamp(), options_.incarnation, now, options_.reign);
+    t.rule.lead(t.names.type(), t.believed.atoms(), my_stamp(), options_.incarnation, now, due, options_.reign);
+  }
+
+  /// The leader takes part, and so does whom it speaks about. Only the leader has given a sign of life.
+  void admit_all(track& t, claim<V> const& c, instant now) {
+    t.believed.admit(c.leader, now);
+    for (in<V> const& x : c.atoms)
+      if (!t.believed.takes_part(x.agent)) t.believed.admit(x.agent, now);
+  }
+
+  /// A leader that has restarted knows nothing of the reign of its former life.
+  void bury_former_life(track& t, plan_message<V> const& m) {
+    if (!t.rule.obeying() || !(t.rule.current().leader == m.sender)) return;
+    if (t.rule.current().incarnation >= m.number.incarnation) return;
+    t.rule.end();
+    normalise(t);
   }
 
   /// b no longer takes part. A reign ends with its leader.
   event<in<V>> dismiss(track& t, agent_id b) {
     auto e = t.believed.expel(b);
     if (t.rule.obeying() && t.rule.current().leader == b) {
-      t.rule.end();
-      t.monitor.clear();
+      t.rule.release();
+      normalise(t);
     }
     return e;
   }
@@ -318,13 +352,12 @@ private:
     return total;
   }
 
-  /// Adopts an allocation; if one's own task changes, one begins in its entry state.
+  /// Adopts an allocation; whose task changes is taken to begin in its entry state.
   event<in<V>> impose(track& t, allocation_atoms<V> const& atoms) {
-    auto const before = t.believed.part(self_);
     auto e = t.believed.replace(atoms);
-    auto const after = t.believed.part(self_);
-    if (after && after != before) {
-      if (auto const* entry = t.names.find(after->plan, after->task)) t.believed.set_state(self_, entry->state);
+    for (auto const& x : e) {
+      if (x.value != sign::plus) continue;
+      if (auto const* entry = t.names.find(x.atom.plan, x.atom.task)) t.believed.set_state(x.atom.agent, entry->state);
     }
     return e;
   }

@@ -16,14 +16,15 @@ enum class claim_outcome : unsigned char {
   repeated,    ///< nothing new; at most the expiry came nearer
   expired,     ///< that claim, or a later one of its leader, has already ended here: it never revives
   outranked,   ///< one leads or obeys with a greater stamp; a leader answers with its own claim
-  challenged   ///< one's own stamp is greater: time to claim
+  challenged   ///< one's own stamp is greater: time to claim, once for each claim
 };
 
 /// One agent's view of who rules one plan type: nobody, itself, or the leader it obeys (section 4, the bully algorithm).
 ///
 /// Invariants, over any loss, duplication, reordering and delay: at most one leader is obeyed; while one is obeyed, never
-/// a smaller stamp; copies of one claim expire at the minimum over the copies; what has expired never revives. So a reign
-/// ends at every follower no later than at its leader plus the greatest message delay.
+/// a smaller stamp; copies of one claim expire at the minimum over the copies; what has expired never revives; no claim is
+/// answered by more than one reign. So a reign ends at every follower no later than at its leader plus the greatest
+/// message delay, and delayed copies prolong nothing.
 template <vocabulary V = runtime_vocabulary>
 class authority {
 public:
@@ -31,7 +32,7 @@ public:
 
   [[nodiscard]] bool leading() const noexcept { return phase_ == phase::leading; }
   [[nodiscard]] bool obeying() const noexcept { return phase_ == phase::obeying; }
-  [[nodiscard]] bool active() const noexcept { return phase_ != phase::none; }
+  [[nodiscard]] bool active() const noexcept { return leading() || obeying(); }
   /// The claim in force: one's own, or the obeyed one. @pre `active()`
   [[nodiscard]] claim<V> const& current() const noexcept {
     ROTA_ASSERT(active());
@@ -43,36 +44,51 @@ public:
     return expiry_;
   }
 
-  /// Begins to lead with a claim of one's own. Its number is one more than that of the last. @pre `!leading()`
+  /// Begins to lead with a claim of one's own, first due at `due`. Its number is one more than that of the last.
+  /// @pre `!leading()`
   void lead(typename V::plan_type type, allocation_atoms<V> atoms, claim_stamp<V> mine, std::uint64_t incarnation,
-            instant now, duration reign) {
+            instant now, instant due, duration reign) {
     ROTA_ASSERT(!leading());
-    end();
+    supersede();
     claim_ = {type, std::move(atoms), mine, mine.id, incarnation, ++numbers_, 1, reign};
     phase_ = phase::leading;
     expiry_ = now + reign;
-    next_repeat_ = now;
+    next_repeat_ = due;
+    said_ = false;
+  }
+
+  /// Whether c has the identity of the claim in force and another stamp. A stamp is frozen for a claim: such a message
+  /// is a forgery or a fault.
+  [[nodiscard]] bool contradicts(claim<V> const& c) const {
+    return active() && claim_.leader == c.leader && identity_of(claim_) == identity_of(c) && claim_.stamp != c.stamp;
   }
 
   /// Hears a claim that is well-formed and from somebody else. `mine` is one's own stamp, were one to claim now.
+  /// @pre `!contradicts(c)`
   claim_outcome hear(claim<V> const& c, claim_stamp<V> const& mine, instant now) {
+    if (leading() && c.stamp < claim_.stamp) {
+      next_repeat_ = std::min(next_repeat_, now);
+      return claim_outcome::outranked;
+    }
     if (auto const* last = ended(c.leader); last && identity_of(c) <= *last) return claim_outcome::expired;
-    if (active() && claim_.leader == c.leader) {
+    if (phase_ != phase::none && claim_.leader == c.leader) {
       identity const current = identity_of(claim_);
       if (identity_of(c) < current) return claim_outcome::expired;
       if (identity_of(c) == current) {
         expiry_ = std::min(expiry_, now + c.remaining);
-        if (c.version <= claim_.version) return claim_outcome::repeated;
-        claim_ = c;
-        return claim_outcome::revised;
+        bool const again = phase_ == phase::released;
+        bool const newer = c.version > claim_.version;
+        phase_ = phase::obeying;
+        if (newer) claim_ = c;
+        return again ? claim_outcome::adopted : newer ? claim_outcome::revised : claim_outcome::repeated;
       }
     }
-    if (active() && c.stamp < claim_.stamp) {
-      if (leading()) next_repeat_ = now;
-      return claim_outcome::outranked;
+    if (active() && c.stamp < claim_.stamp) return claim_outcome::outranked;
+    if (!active() && c.stamp < mine) {
+      bury(c.leader, identity_of(c));
+      return claim_outcome::challenged;
     }
-    if (!active() && c.stamp < mine) return claim_outcome::challenged;
-    end();
+    supersede();
     claim_ = c;
     phase_ = phase::obeying;
     expiry_ = now + c.remaining;
@@ -81,23 +97,29 @@ public:
 
   /// Ends the claim in force if its time is over; whether it did.
   bool expire(instant now) {
-    if (!active() || now < expiry_) return false;
+    if (phase_ == phase::none || now < expiry_) return false;
+    bool const was_active = active();
     end();
-    return true;
+    return was_active;
   }
   /// Ends the claim in force, if any; no copy of it will revive.
   void end() {
-    if (!active()) return;
+    if (phase_ == phase::none) return;
     bury(claim_.leader, identity_of(claim_));
     phase_ = phase::none;
   }
+  /// Obeys no longer (the leader seems to be gone, or oneself is), unless its claim is heard again before it expires.
+  void release() {
+    if (obeying()) phase_ = phase::released;
+  }
 
-  /// The leader changed its mind: a new version, due at once. @pre `leading()`
+  /// The leader has deliberated: a change is a new version; that, and what was never said, is due at once.
+  /// @pre `leading()`
   void revise(allocation_atoms<V> const& atoms, instant now) {
     ROTA_ASSERT(leading());
-    if (claim_.atoms == atoms) return;
+    if (claim_.atoms == atoms && said_) return;
+    if (claim_.atoms != atoms) ++claim_.version;
     claim_.atoms = atoms;
-    ++claim_.version;
     next_repeat_ = now;
   }
 
@@ -107,6 +129,7 @@ public:
   [[nodiscard]] std::optional<claim<V>> next_claim(instant now, duration period) {
     if (!leading() || now < next_repeat_ || now >= expiry_) return std::nullopt;
     next_repeat_ = now + period;
+    said_ = true;
     claim_.remaining = expiry_ - now;
     return claim_;
   }
@@ -114,7 +137,7 @@ public:
   friend bool operator==(authority const&, authority const&) = default;
 
 private:
-  enum class phase : unsigned char { none, leading, obeying };
+  enum class phase : unsigned char { none, leading, obeying, released };
 
   /// Orders the claims of one leader.
   struct identity {
@@ -128,6 +151,10 @@ private:
     friend bool operator==(grave const&, grave const&) = default;
   };
 
+  /// What is in force gives way to a greater claim, for good; what was released may still be in force elsewhere.
+  void supersede() {
+    if (active()) end();
+  }
   static identity identity_of(claim<V> const& c) { return {c.incarnation, c.number}; }
   static bool before(grave const& g, agent_id b) { return g.leader < b; }
   identity const* ended(agent_id leader) const {
@@ -144,6 +171,7 @@ private:
   claim<V> claim_;
   instant expiry_{};
   instant next_repeat_{};
+  bool said_ = false;               // the claim was sent at least once
   std::uint64_t numbers_ = 0;       // claims made by this agent
   small_vector<grave, 4> graves_;   // ascending by leader; at most one per agent of the roster
 };

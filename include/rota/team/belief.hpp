@@ -10,12 +10,13 @@
 
 namespace rota {
 
-/// The four events a plan message can cause (section 4, after Def. 4).
+/// The four events a plan message can cause (section 4, after Def. 4), and what a claim causes.
 enum class message_case : unsigned char {
   agreement,  ///< (∅, ∅): nothing new about the sender
   joined,     ///< ({In(b, p, τ)}, ∅)
   moved,      ///< ({In(b, p, τ)}, {In(b, p′, τ′)}), (p, τ) ≠ (p′, τ′)
-  left        ///< (∅, {In(b, p′, τ′)})
+  left,       ///< (∅, {In(b, p′, τ′)})
+  imposed     ///< none of the four: a leader's claim, which may speak about anybody
 };
 
 /// What one agent believes about one plan type: who takes part, who does what, and when each was last heard of.

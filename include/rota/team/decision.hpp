@@ -19,7 +19,7 @@ enum class refusal : unsigned char {
   unknown_task,          ///< a plan or task that the executed plan type does not have
   not_executed,          ///< a claim for a plan type that the receiver does not execute
   malformed_allocation,  ///< a claim gives one agent two tasks, or mixes plans
-  foreign_stamp,         ///< a claim whose stamp is not its leader's
+  foreign_stamp,         ///< a claim whose stamp is not its leader's, or not the one the claim had before
   remaining_time,        ///< a claim whose remaining time is not positive, or above the configured maximum
   resolution_off         ///< a claim, and this agent takes no part in conflict resolution
 };
@@ -35,7 +35,7 @@ enum class verdict : unsigned char {
 template <vocabulary V>
 struct belief_change {
   typename V::plan_type type{};
-  message_case what{};   ///< for plan messages: which of the four cases
+  message_case what{};       ///< which of the four cases, or imposed
   rota::event<in<V>> event;  ///< e_m; for a claim, the imposed change
 };
 
@@ -69,7 +69,7 @@ struct decision {
   std::uint32_t cycles = 0;                   ///< cycles that this deliberation completed
   std::optional<typename V::agent> detected;  ///< the sender of the n-th subsequent cycle, when a monitor fired
   bool reign_began = false;                   ///< the agent claims authority from now on
-  bool reign_ended = false;                   ///< the claim in force ran out before this deliberation
+  bool reign_ended = false;                   ///< a reign has ended since the last deliberation
 };
 
 /// Parameters of an agent; the defaults are the paper's.
@@ -77,7 +77,7 @@ struct agent_options {
   std::uint32_t cycles = 4;                  ///< n subsequent cycles are a conflict that does not heal
   duration pending_age = seconds(1);         ///< see `monitor_options`
   duration reign = seconds(2);               ///< how long authority lasts
-  duration max_reign = seconds(2);           ///< claims with more time left are refused
+  duration max_reign = seconds(2);           ///< claims with more time left are refused; at least `reign`
   duration message_period = milliseconds(100);
   duration claim_period = milliseconds(100); ///< how often a leader repeats an unchanged claim
   duration silence = seconds(2);             ///< an agent not heard of for so long is deleted
