@@ -61,8 +61,9 @@ TEST(authority, a_smaller_claim_challenges_the_greater_agent) {
   authority a;
   EXPECT_EQ(a.hear(claim_by(7), of(8), start), claim_outcome::challenged);
   EXPECT_FALSE(a.active());
+  EXPECT_EQ(a.hear(claim_by(7), of(8), start), claim_outcome::expired) << "once for each claim";
   a.hear(claim_by(9), of(8), start);
-  EXPECT_EQ(a.hear(claim_by(7), of(8), start), claim_outcome::outranked) << "it already obeys a greater one";
+  EXPECT_EQ(a.hear(claim_by(7, 2), of(8), start), claim_outcome::outranked) << "it already obeys a greater one";
 }
 
 TEST(authority, a_leader_answers_a_smaller_claim_at_once_and_yields_to_a_greater_one) {
