@@ -4,9 +4,12 @@
 #include "target.hpp"
 #include "text.hpp"
 
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -60,6 +63,13 @@ void require_playable(sim::playbook const& book, std::size_t robots, std::string
   auto const members = sim::team_of(robots);
   if (!best_allocation(problem(book.type, members, anywhere), space))
     throw input_error(file, "", counted(robots, "robot") + " cannot play it: no allocation is valid");
+}
+
+std::string check_seed(std::string const& text) {
+  std::uint64_t seed = 0;
+  auto const* const end = text.data() + text.size();
+  auto const [rest, error] = std::from_chars(text.data(), end, seed);
+  return error == std::errc{} && rest == end ? "" : text + " is not a whole number from 0 to 18446744073709551615";
 }
 
 nlohmann::ordered_json as_json(sim::scenario what, bool resolution, sim::figures const& f) {

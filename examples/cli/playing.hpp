@@ -18,6 +18,9 @@ namespace rota::cli {
 /// Throws `input_error` if so many robots have no valid allocation of any of the plans.
 void require_playable(sim::playbook const& book, std::size_t robots, std::string const& file);
 
+/// For CLI11: what is wrong with the text of a seed, if anything. Its own conversion would wrap -1 and cap 2^64.
+[[nodiscard]] std::string check_seed(std::string const& text);
+
 /// One run, in the form that `rota reproduce --json` prints. Undefined shares are null.
 [[nodiscard]] nlohmann::ordered_json as_json(sim::scenario what, bool resolution, sim::figures const& f);
 

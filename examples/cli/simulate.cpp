@@ -97,7 +97,7 @@ void add_simulate(CLI::App& program, chosen_command& chosen) {
     return sim::parse_scenario(name) ? std::string{} : name + " is no scenario; there are " + names;
   });
   command->add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan");
-  command->add_option("--seed", o->seed, "equal seeds give equal output")->capture_default_str();
+  command->add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
   command->add_option("--minutes", o->minutes, "simulated time; by default 60 for hour, otherwise 5")
       ->check(within(0.01, 1440, "a number of minutes from 0.01 to 1440"));
   command->add_option("--robots", o->robots, "size of the team, 2 to 11")

@@ -3,6 +3,7 @@
 #include <rota/sim/metrics.hpp>
 #include <rota/sim/scripted_world.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <rota/team/agent.hpp>
-
 #include <rota/sim/playbook.hpp>
+#include <rota/team/agent.hpp>
 
 #include <concepts>
 #include <cstddef>

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <rota/search/best_allocation.hpp>
 #include <rota/sim/simulation.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -71,9 +73,9 @@ struct figures {
 /// * episode: from the beginning of a conflict to the beginning of the first agreement that then lasts `calm`. At `begin`
 ///   and at the end of the run it is cut off; the agreement that an episode ends with there may be shorter.
 /// * reign: of a robot that leads, from a beginning within the measured time, unless it obeys a greater claim within
-///   `calm` (of several claims made at once only the greatest is a reign), or the run ends before it deliberates.
-/// * right: at its first deliberation as a leader, that which began the reign included, the attackers it imposes are those of the best allocation under the
-///   true world.
+///   `calm` (of several claims made at once only the greatest is a reign), or the run ends before that.
+/// * right: at its first deliberation as a leader, that which began the reign included, the attackers it imposes are those
+///   of the best allocation under the true world.
 template <class Simulation>
 class metrics {
 public:
@@ -119,7 +121,8 @@ public:
   [[nodiscard]] figures finish(instant end) {
     pass_to(end);
     if (episode_) figures_.episodes.add((conflict_ ? end : agreed_) - *episode_);
-    for (std::size_t i = 0; i < reigns_.size(); ++i) count(i);
+    for (std::size_t i = 0; i < reigns_.size(); ++i)
+      if (reigns_[i].began && end - *reigns_[i].began >= calm) count(i);
     figures_.measured = end - begin_;
     figures_.perception_digest = simulation_.perception_digest();
     return figures_;

@@ -17,8 +17,10 @@ struct sensor_options {
   micrometres ball_noise = metres(0.01);  ///< standard deviation of the seen ball in x and y, at distance 0
   std::int64_t ball_noise_permille = 20;  ///< added to it, of the distance
   micrometres mate_noise = metres(0.03);  ///< of a team mate's reported place, in x and y
-  std::int64_t tracking =
-      4;  ///< robots track what they see: an error moves by 1/4 of the way to that of each new frame
+  /// Robots track what they see: an error moves by 1/tracking of the way to that of each new frame. With 1 they do not:
+  /// then a leader six metres off sees its ball jump by more than a plan's hysteresis of 10 cm, changes its mind with
+  /// every other frame, and so keeps an episode of conflict open for up to ten seconds. Hysteresis must exceed noise.
+  std::int64_t tracking = 4;
 };
 
 /// The distance at which a ball `d` away is seen: g(d) = d + bias · d · (d − d₀) / (d + d₀). @pre 0 ≤ d ≤ 60 m

@@ -44,7 +44,7 @@ struct extent {
   micrometres high = 0;
 };
 
-/// Every number of the scripted worlds. Chosen for plausibility before the first run, and not tuned to any result.
+/// Every number of the scripted worlds. Chosen for plausibility, and not fitted to what the paper counted.
 ///
 /// The four scenarios with a persistent cause are played in rounds: in each, the ball lies elsewhere and the next robot
 /// is the one in trouble, so that ids are not confounded with parts: ten rounds of five robots in five minutes.

@@ -117,9 +117,11 @@ private:
     }
     switch (scenario_) {
     case scenario::ball_fight: {
+      // One draw a statement: in which order a call evaluates its arguments is the compiler's choice.
       point const d = direction();
       put(x, ball + rescaled(d, draw(options_.fight), metres(1)));
-      put(y, ball + rescaled(opposite(d), draw(options_.fight), metres(1)));
+      point const e = opposite(d);
+      put(y, ball + rescaled(e, draw(options_.fight), metres(1)));
       break;
     }
     case scenario::phantom_two:
