@@ -37,8 +37,9 @@ int main() {
     rota::instant next_tick;
   };
   std::array const roster{left, right};
-  std::array<robot, 2> robots{robot{rota::agent<soccer>(left, roster), {left}, {}, {}},
-                              robot{rota::agent<soccer>(right, roster), {right}, {}, rota::instant{} + milliseconds(13)}};
+  std::array<robot, 2> robots{
+      robot{rota::agent<soccer>(left, roster), {left}, {}, {}},
+      robot{rota::agent<soccer>(right, roster), {right}, {}, rota::instant{} + milliseconds(13)}};
   for (auto& r : robots) r.self.enter(play, rota::instant{});
 
   bool ruled = false;
@@ -49,13 +50,15 @@ int main() {
         me.next_tick = me.next_tick + milliseconds(30);
         auto const d = me.self.deliberate(play, members, me.sees, now, me.space);
         if (d.detected)
-          std::printf("%3lld ms: robot %d sees the loop\n", static_cast<long long>(now.ns / 1'000'000), int(me.self.self()));
+          std::printf("%3lld ms: robot %d sees the loop\n", static_cast<long long>(now.ns / 1'000'000),
+                      int(me.self.self()));
       }
       while (auto m = me.self.next_message(now)) other.self.receive(*m, now);  // the radio
     }
     auto const* rule = robots[0].self.rule(play.id());
     if (!ruled && rule->obeying()) {
-      std::printf("%3lld ms: robot 1 obeys robot %d\n", static_cast<long long>(now.ns / 1'000'000), int(rule->current().leader));
+      std::printf("%3lld ms: robot 1 obeys robot %d\n", static_cast<long long>(now.ns / 1'000'000),
+                  int(rule->current().leader));
       ruled = true;
     }
   }

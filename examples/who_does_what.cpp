@@ -26,9 +26,10 @@ int main() {
   auto const nearest_attacks = [](soccer::agent a, soccer::task t, beliefs const& b) -> std::optional<double> {
     return t == attack ? 10 - b.distance_to_ball.at(a) : 1.0;
   };
-  auto const normal = plan::make({.plan = soccer::plan::normal,
-                                  .tasks = {{attack, {1, 1}, soccer::state::get_ball}, {defend, {0, 2}, soccer::state::protect}},
-                                  .utility = rota::additive_utility<soccer, beliefs>(nearest_attacks)});
+  auto const normal =
+      plan::make({.plan = soccer::plan::normal,
+                  .tasks = {{attack, {1, 1}, soccer::state::get_ball}, {defend, {0, 2}, soccer::state::protect}},
+                  .utility = rota::additive_utility<soccer, beliefs>(nearest_attacks)});
   auto const kickoff = plan::make({.plan = soccer::plan::kickoff,
                                    .tasks = {{attack, {2, 2}, soccer::state::get_ball}},
                                    .utility = rota::additive_utility<soccer, beliefs>(nearest_attacks),

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -26,13 +25,6 @@ sim::plan_sketch sketch_of(target const& t, alica::plan const& p) {
   return s;
 }
 
-/// The id of the plan type that the file holds, if it is one: then its plans are meant.
-std::string plan_type_in(std::string const& file) {
-  if (std::filesystem::path(file).extension() != ".pty") return {};
-  auto const m = alica::load(file);
-  return m.plan_types.size() == 1 ? std::to_string(m.plan_types.front().id) : std::string{};
-}
-
 std::string printed(char const* format, double x) {
   char text[64];
   std::snprintf(text, sizeof text, format, x);
@@ -47,7 +39,7 @@ std::string default_plan() {
 }
 
 sim::playbook read_playbook(std::string const& file) {
-  auto const t = find_target({file}, plan_type_in(file));
+  auto const t = find_target({file}, "");
   std::vector<sim::plan_sketch> sketches;
   for (auto const* p : t->plans) sketches.push_back(sketch_of(*t, *p));
   auto const type = t->type != nullptr ? t->type->id : t->plans.front()->id;
@@ -69,7 +61,10 @@ std::string check_seed(std::string const& text) {
   std::uint64_t seed = 0;
   auto const* const end = text.data() + text.size();
   auto const [rest, error] = std::from_chars(text.data(), end, seed);
-  return error == std::errc{} && rest == end ? "" : text + " is not a whole number from 0 to 18446744073709551615";
+  bool const octal = text.size() > 1 && text.front() == '0';  // to CLI11
+  return error == std::errc{} && rest == end && !octal
+             ? ""
+             : '"' + text + "\" is not a whole number from 0 to 18446744073709551615";
 }
 
 nlohmann::ordered_json as_json(sim::scenario what, bool resolution, sim::figures const& f) {

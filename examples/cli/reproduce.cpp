@@ -183,7 +183,8 @@ void add_reproduce(CLI::App& program, chosen_command& chosen) {
   auto* const command =
       program.add_subcommand("reproduce", "The paper's evaluation: every scenario, without and with resolution");
   command->add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
-  command->add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan");
+  command->add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan")
+      ->check(check_not_empty);
   command->add_flag("--json", o->json, "print JSON");
   command->callback([o, &chosen] { chosen = [o] { return run_reproduce(*o); }; });
 }

@@ -4,8 +4,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <charconv>
 #include <memory>
 #include <optional>
+#include <system_error>
+#include <type_traits>
 
 namespace rota::cli {
 namespace {
@@ -24,13 +27,17 @@ struct options {
   bool json = false;
 };
 
-/// A check of CLI11 that NaN does not pass.
-CLI::Validator within(double low, double high, std::string const& what) {
+/// A check of CLI11 for plain decimal numbers: its own conversion takes "0x1" and "nan", and wraps "-1".
+template <class Number>
+CLI::Validator within(Number low, Number high, std::string const& what) {
   return CLI::Validator(
       [=](std::string const& text) {
-        double x = 0;
-        bool const good = CLI::detail::lexical_cast(text, x) && x >= low && x <= high;
-        return good ? std::string{} : text + " is not " + what;
+        Number x{};
+        auto const* const end = text.data() + text.size();
+        auto const [rest, error] = std::from_chars(text.data(), end, x);
+        bool const octal = std::is_integral_v<Number> && text.size() > 1 && text.front() == '0';  // to CLI11
+        bool const good = error == std::errc{} && rest == end && x >= low && x <= high && !octal;
+        return good ? std::string{} : '"' + text + "\" is not " + what;
       },
       "");
 }
@@ -96,24 +103,26 @@ void add_simulate(CLI::App& program, chosen_command& chosen) {
   command->add_option("--scenario", o->scenario, names)->required()->check([names](std::string const& name) {
     return sim::parse_scenario(name) ? std::string{} : name + " is no scenario; there are " + names;
   });
-  command->add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan");
+  command->add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan")
+      ->check(check_not_empty);
   command->add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
   command->add_option("--minutes", o->minutes, "simulated time; by default 60 for hour, otherwise 5")
-      ->check(within(0.01, 1440, "a number of minutes from 0.01 to 1440"));
+      ->check(within(0.01, 1440.0, "a number of minutes from 0.01 to 1440"));
   command->add_option("--robots", o->robots, "size of the team, 2 to 11")
-      ->check(CLI::Range(std::size_t{2}, sim::max_robots))
+      ->check(within(std::size_t{2}, std::size_t{sim::max_robots},
+                     "a whole number from 2 to " + std::to_string(sim::max_robots)))
       ->capture_default_str();
   command->add_option("--loss", o->loss, "probability that a message is lost")
-      ->check(within(0, 1, "a probability from 0 to 1"))
+      ->check(within(0.0, 1.0, "a probability from 0 to 1"))
       ->capture_default_str();
   command->add_option("--latency", o->latency, "least delay of a message in ms")
-      ->check(within(0, 10'000, "a delay from 0 to 10000 ms"))
+      ->check(within(0.0, 10'000.0, "a delay from 0 to 10000 ms"))
       ->capture_default_str();
   command->add_option("--cycles", o->cycles, "n: subsequent cycles that make a detection")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(within(1, 1'000'000, "a whole number from 1 to 1000000"))
       ->capture_default_str();
   command->add_option("--reign", o->reign, "how long a leader decides, in seconds")
-      ->check(within(0.01, 3600, "a time from 0.01 to 3600 seconds"))
+      ->check(within(0.01, 3600.0, "a time from 0.01 to 3600 seconds"))
       ->capture_default_str();
   command->add_option("--resolution", o->resolution, "on, or off: detect only")
       ->check(CLI::IsMember({"on", "off"}))

@@ -93,14 +93,15 @@ TEST_F(rota_simulate, misuse_is_one_line) {
       expect_complaint(ball_fight({option, v}), {option});
     }
   };
-  expect("--seed", {"1.5", "x"});
-  expect("--loss", {"nan", "1.01", "-0.01", "1e-1x", "0,5"});
-  expect("--latency", {"nan", "-1", "10001"});
-  expect("--reign", {"nan", "0", "-2", "3601", "2s"});
-  expect("--robots", {"0", "1", "12", "5.0"});
-  expect("--cycles", {"0", "4.5", "1000001"});
+  expect("--seed", {"-1", "18446744073709551616", "1.5", "0x1", "010", "+1", " 1", "1 ", "x", ""});
+  expect("--loss", {"0x1", "nan", "-nan", "inf", "1.01", "-0.01", "1e-1x", "0,5", ""});
+  expect("--latency", {"0x1", "nan", "-1", "10001", "1e999", ""});
+  expect("--reign", {"0x1", "nan", "0", "-2", "3601", "2s", ""});
+  expect("--robots", {"0", "1", "12", "-1", "0x5", "05", "5.0", "4294967301", ""});
+  expect("--cycles", {"0", "-1", "0x4", "4.5", "1000001", "4294967300", ""});
   expect("--resolution", {"maybe", "ON", ""});
-  for (std::string const minutes : {"0", "-1", "nan", "1441"})
+  expect("--plan", {""});
+  for (std::string const minutes : {"0", "-1", "nan", "inf", "0x1", "1441", ""})
     expect_complaint(rota_program({"simulate", "--scenario", "hour", "--minutes", minutes}), {"--minutes"});
   expect_complaint(rota_program({"simulate"}), {"--scenario"});
   expect_complaint(rota_program({"simulate", "--scenario", "chess"}), {"--scenario", "chess", "ball-fight"});
@@ -115,7 +116,9 @@ TEST_F(rota_simulate, misuse_is_one_line) {
 }
 
 TEST_F(rota_reproduce, misuse_is_one_line) {
-  expect_complaint(rota_program({"reproduce", "--seed", "x"}), {"--seed"});
+  for (std::string const seed : {"-1", "18446744073709551616", "0x1", "nan", ""})
+    expect_complaint(rota_program({"reproduce", "--seed", seed}), {"--seed"});
+  expect_complaint(rota_program({"reproduce", "--plan", ""}), {"--plan"});
   expect_complaint(rota_program({"reproduce", "--plan", "/nowhere.pml"}), {"/nowhere.pml", "no such file"});
   expect_complaint(rota_program({"reproduce", "--minutes", "1"}), {"--minutes"});
   expect_complaint(rota_program({"reproduce", "surplus"}), {"surplus"});

@@ -55,7 +55,9 @@ TEST_F(agent_test, enters_alone_decides_and_leaves) {
 
 TEST_F(agent_test, a_message_is_one_of_the_four_cases) {
   auto a = robot_in_play(1);
-  auto hear = [&, n = std::uint64_t{0}](std::optional<soccer::task> task) mutable { return a.receive(says(2, ++n, task), start); };
+  auto hear = [&, n = std::uint64_t{0}](std::optional<soccer::task> task) mutable {
+    return a.receive(says(2, ++n, task), start);
+  };
 
   auto joined = hear(defend);
   ASSERT_EQ(joined.changes.size(), 1u);
@@ -208,7 +210,8 @@ TEST_F(agent_test, bad_messages_are_refused_whole_with_a_reason) {
   c = claim_by(9, 1);
   c.type = defence_id;
   bad.push_back({c, refusal::not_executed});
-  for (auto remaining : {rota::seconds(0), rota::seconds(-1), rota::seconds(2) + rota::nanoseconds(1), rota::duration{INT64_MIN}}) {
+  for (auto remaining :
+       {rota::seconds(0), rota::seconds(-1), rota::seconds(2) + rota::nanoseconds(1), rota::duration{INT64_MIN}}) {
     c = claim_by(9, 1);
     c.remaining = remaining;
     bad.push_back({c, refusal::remaining_time});
@@ -253,20 +256,29 @@ TEST_F(agent_test, no_message_whatever_breaks_it) {
       now = now + milliseconds(*rc::gen::inRange(0, 50));
       message m;
       if (*rc::gen::arbitrary<bool>()) {
-        plan_message p{robot(*rc::gen::inRange(1, 12)), {*rc::gen::inRange<std::uint64_t>(0, 3), *rc::gen::inRange<std::uint64_t>(0, 50)}, {}};
+        plan_message p{robot(*rc::gen::inRange(1, 12)),
+                       {*rc::gen::inRange<std::uint64_t>(0, 3), *rc::gen::inRange<std::uint64_t>(0, 50)},
+                       {}};
         int const types = *rc::gen::inRange(0, 3);
         for (int t = 0; t < types; ++t) {
           rota::participation<soccer> entry{soccer::plan_type(*rc::gen::inRange(0, 3)), std::nullopt};
           if (*rc::gen::arbitrary<bool>())
-            entry.place = rota::placement<soccer>{soccer::plan(*rc::gen::weightedElement<int>({{5, 0}, {1, 1}, {1, 7}})),
-                                                  soccer::task(*rc::gen::inRange(0, 4)), {}};
+            entry.place =
+                rota::placement<soccer>{soccer::plan(*rc::gen::weightedElement<int>({{5, 0}, {1, 1}, {1, 7}})),
+                                        soccer::task(*rc::gen::inRange(0, 4)),
+                                        {}};
           p.types.push_back(entry);
         }
         m = p;
       } else {
         int const leader = *rc::gen::inRange(1, 12);
-        claim c{play_id, {}, {0, robot(leader)}, robot(leader), *rc::gen::inRange<std::uint64_t>(0, 2),
-                *rc::gen::inRange<std::uint64_t>(0, 4), *rc::gen::inRange<std::uint64_t>(0, 4),
+        claim c{play_id,
+                {},
+                {0, robot(leader)},
+                robot(leader),
+                *rc::gen::inRange<std::uint64_t>(0, 2),
+                *rc::gen::inRange<std::uint64_t>(0, 4),
+                *rc::gen::inRange<std::uint64_t>(0, 4),
                 milliseconds(*rc::gen::weightedElement<int>({{6, 1500}, {1, 0}, {1, 5000}, {3, 40}}))};
         for (atom x : *any_atoms(11, 3)) {
           if (*rc::gen::inRange(0, 4) != 0) x.plan = soccer::plan::normal;

@@ -141,7 +141,8 @@ TEST(authority, invariants_over_every_interleaving) {
     struct member {
       authority rule;
       std::uint64_t incarnation = 1;
-      std::set<std::tuple<soccer::agent, std::uint64_t, std::uint64_t>> ended;  // forgotten by a restart, like the agent
+      std::set<std::tuple<soccer::agent, std::uint64_t, std::uint64_t>>
+          ended;  // forgotten by a restart, like the agent
     };
     std::vector<member> members(team + 1);
     std::vector<copy> flying;
@@ -152,7 +153,8 @@ TEST(authority, invariants_over_every_interleaving) {
     auto const key = [](claim const& c) { return std::tuple(c.leader, c.incarnation, c.number); };
     auto const lead = [&](int n) {
       auto& m = members[static_cast<std::size_t>(n)];
-      m.rule.lead(soccer::plan_type::play, attacker(*rc::gen::inRange(1, team + 1)), of(n), m.incarnation, now, now, reign);
+      m.rule.lead(soccer::plan_type::play, attacker(*rc::gen::inRange(1, team + 1)), of(n), m.incarnation, now, now,
+                  reign);
       leader_expiry[key(m.rule.current())] = now + reign;
     };
 
@@ -161,41 +163,41 @@ TEST(authority, invariants_over_every_interleaving) {
       int const n = *rc::gen::inRange(1, team + 1).as("member");
       auto& m = members[static_cast<std::size_t>(n)];
       switch (*rc::gen::weightedElement<int>({{3, 0}, {2, 1}, {3, 2}, {9, 3}, {1, 4}, {1, 5}}).as("action")) {
-        case 0: now = now + milliseconds(*rc::gen::inRange(1, 700)); break;
-        case 1:
-          if (!m.rule.active()) lead(n);
-          break;
-        case 2:
-          if (auto c = m.rule.next_claim(now, period)) flying.push_back({*c, now});
-          break;
-        case 3: {
-          if (flying.empty()) break;
-          auto const& c = flying[static_cast<std::size_t>(*rc::gen::inRange<int>(0, int(flying.size())))];
-          if (c.what.leader == robot(n)) break;
-          greatest_delay = std::max(greatest_delay, now - c.sent);
-          bool const obeyed = m.rule.obeying();
-          auto const previous = obeyed || m.rule.leading() ? m.rule.current() : claim{};
-          auto const outcome = m.rule.hear(c.what, of(n), now);
-          if (outcome == claim_outcome::adopted) {
-            RC_ASSERT(m.ended.count(key(c.what)) == 0);
-            if (obeyed) RC_ASSERT(!(c.what.stamp < previous.stamp));
-            switched += obeyed && previous.leader != c.what.leader;
-            if (previous.version > 0) m.ended.insert(key(previous));
-          }
-          revived_attempts += outcome == claim_outcome::expired;
-          if (outcome == claim_outcome::challenged) lead(n);
-          if (m.rule.obeying()) {
-            RC_ASSERT(m.rule.current().leader != robot(n));
-            RC_ASSERT(m.rule.expiry() <= leader_expiry.at(key(m.rule.current())) + greatest_delay);
-          }
-          break;
+      case 0: now = now + milliseconds(*rc::gen::inRange(1, 700)); break;
+      case 1:
+        if (!m.rule.active()) lead(n);
+        break;
+      case 2:
+        if (auto c = m.rule.next_claim(now, period)) flying.push_back({*c, now});
+        break;
+      case 3: {
+        if (flying.empty()) break;
+        auto const& c = flying[static_cast<std::size_t>(*rc::gen::inRange<int>(0, int(flying.size())))];
+        if (c.what.leader == robot(n)) break;
+        greatest_delay = std::max(greatest_delay, now - c.sent);
+        bool const obeyed = m.rule.obeying();
+        auto const previous = obeyed || m.rule.leading() ? m.rule.current() : claim{};
+        auto const outcome = m.rule.hear(c.what, of(n), now);
+        if (outcome == claim_outcome::adopted) {
+          RC_ASSERT(m.ended.count(key(c.what)) == 0);
+          if (obeyed) RC_ASSERT(!(c.what.stamp < previous.stamp));
+          switched += obeyed && previous.leader != c.what.leader;
+          if (previous.version > 0) m.ended.insert(key(previous));
         }
-        case 4:  // a restart: the state is lost, the incarnation grows
-          m = member{authority{}, m.incarnation + 1, {}};
-          ++restarts;
-          break;
-        default:
-          if (m.rule.leading()) m.rule.revise(attacker(*rc::gen::inRange(1, team + 1)), now);
+        revived_attempts += outcome == claim_outcome::expired;
+        if (outcome == claim_outcome::challenged) lead(n);
+        if (m.rule.obeying()) {
+          RC_ASSERT(m.rule.current().leader != robot(n));
+          RC_ASSERT(m.rule.expiry() <= leader_expiry.at(key(m.rule.current())) + greatest_delay);
+        }
+        break;
+      }
+      case 4:  // a restart: the state is lost, the incarnation grows
+        m = member{authority{}, m.incarnation + 1, {}};
+        ++restarts;
+        break;
+      default:
+        if (m.rule.leading()) m.rule.revise(attacker(*rc::gen::inRange(1, team + 1)), now);
       }
       for (auto& each : members) {
         if (!each.rule.active()) continue;

@@ -47,7 +47,8 @@ TEST(conflict, never_between_plan_types) {
 }
 
 /// A witness is right if it names a conflict, in the printed sense, between b and the agent it points to.
-bool witness_holds(rota::conflict_witness<soccer> const& w, allocation const& c1, allocation const& c2, allocation const& cb) {
+bool witness_holds(rota::conflict_witness<soccer> const& w, allocation const& c1, allocation const& c2,
+                   allocation const& cb) {
   allocation const& from = w.partner == rota::conflict_partner::second ? cb : c1;
   allocation const& to = w.partner == rota::conflict_partner::second ? c2 : cb;
   return printed_conflict(from, to) && from.atoms.contains(w.cause) && !to.atoms.contains(w.cause);
@@ -68,9 +69,9 @@ TEST(proposition_1, witness_is_a_conflict_with_b_in_every_branch) {
     auto const b = static_cast<std::size_t>(x.agent);
     if (b != a1 && b != a2) {
       switch (*rc::gen::inRange(0, 3).as("C_b holds x, something else, nothing")) {
-        case 0: belief[b].atoms.insert(x); break;
-        case 1: belief[b].atoms.erase(x); break;
-        default: belief[b].atoms.clear();
+      case 0: belief[b].atoms.insert(x); break;
+      case 1: belief[b].atoms.erase(x); break;
+      default: belief[b].atoms.clear();
       }
     }
     auto const w = proposition_1(belief[a1], belief[a2], belief[b], x);
@@ -80,9 +81,12 @@ TEST(proposition_1, witness_is_a_conflict_with_b_in_every_branch) {
     if (b == a2) RC_ASSERT(w.partner == rota::conflict_partner::first);
     ++cases;
     self += b == a1 || b == a2;
-    if (belief[b].atoms.empty()) ++nothing;
-    else if (belief[b].atoms.contains(x)) ++held;
-    else ++elsewhere;
+    if (belief[b].atoms.empty())
+      ++nothing;
+    else if (belief[b].atoms.contains(x))
+      ++held;
+    else
+      ++elsewhere;
     always_first_wrong += !witness_holds({rota::conflict_partner::first, x}, belief[a1], belief[a2], belief[b]);
     always_second_wrong += !witness_holds({rota::conflict_partner::second, x}, belief[a1], belief[a2], belief[b]);
   }));

@@ -34,9 +34,8 @@ template <ordered_atom Atom>
 /// Whether e⁺ ∩ C = ∅ and e⁻ ⊆ C, equivalently χ(C) + ι(e) ∈ {0, 1} everywhere. O(|e| log |C|).
 template <ordered_atom Atom>
 [[nodiscard]] constexpr bool applicable(event<Atom> const& e, atom_set<Atom> const& c) {
-  return std::all_of(e.begin(), e.end(), [&](signed_atom<Atom> const& x) {
-    return c.contains(x.atom) == (x.value == sign::minus);
-  });
+  return std::all_of(e.begin(), e.end(),
+                     [&](signed_atom<Atom> const& x) { return c.contains(x.atom) == (x.value == sign::minus); });
 }
 
 /// e·C = (C ∖ e⁻) ∪ e⁺ where e is applicable, otherwise the least offending atom.

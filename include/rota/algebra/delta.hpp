@@ -134,8 +134,8 @@ delta(atom_set<Atom>) -> delta<Atom>;
 
 /// d + e, or the least atom whose multiplicity overflows. O(|d| + |e|).
 template <ordered_atom Atom, integer_coefficient Coefficient>
-[[nodiscard]] constexpr result<delta<Atom, Coefficient>, coefficient_overflow<Atom>> checked_sum(
-    delta<Atom, Coefficient> const& d, delta<Atom, Coefficient> const& e) {
+[[nodiscard]] constexpr result<delta<Atom, Coefficient>, coefficient_overflow<Atom>>
+checked_sum(delta<Atom, Coefficient> const& d, delta<Atom, Coefficient> const& e) {
   using group = delta<Atom, Coefficient>;
   group r;
   r.entries_.reserve(d.size() + e.size());

@@ -18,9 +18,7 @@ enum class sign : std::int8_t { minus = -1, zero = 0, plus = 1 };
 [[nodiscard]] constexpr sign clamp_to_sign(int n) noexcept { return static_cast<sign>((n > 0) - (n < 0)); }
 
 /// clamp(s + t) into [−1, +1]: Def. 4 at one atom. Commutative, with identity and unique inverses; not associative.
-[[nodiscard]] constexpr sign clamped_sum(sign s, sign t) noexcept {
-  return clamp_to_sign(to_int(s) + to_int(t));
-}
+[[nodiscard]] constexpr sign clamped_sum(sign s, sign t) noexcept { return clamp_to_sign(to_int(s) + to_int(t)); }
 
 /// One entry of an event. The sign of a stored entry is never zero.
 template <ordered_atom Atom>

@@ -30,9 +30,8 @@ public:
   [[nodiscard]] typename V::plan_type type() const noexcept { return type_; }
   /// The entry of (p, τ), or nullptr where the type has no such task. O(log n).
   [[nodiscard]] entry const* find(typename V::plan p, typename V::task t) const {
-    auto const where = std::lower_bound(entries_.begin(), entries_.end(), 0, [&](entry const& e, int) {
-      return e.plan == p ? t > e.task : p > e.plan;
-    });
+    auto const where = std::lower_bound(entries_.begin(), entries_.end(), 0,
+                                        [&](entry const& e, int) { return e.plan == p ? t > e.task : p > e.plan; });
     return where != entries_.end() && where->plan == p && where->task == t ? &*where : nullptr;
   }
 

@@ -48,8 +48,7 @@ using precondition = std::function<bool(Beliefs const&, allocation_view<V>)>;
 /// Must return finite numbers of magnitude at most `max_utility`; what it returns for a pair must not depend on the
 /// allocation.
 template <vocabulary V, class Beliefs>
-using additive_utility =
-    std::function<std::optional<double>(typename V::agent, typename V::task, Beliefs const&)>;
+using additive_utility = std::function<std::optional<double>(typename V::agent, typename V::task, Beliefs const&)>;
 
 /// U_p as any function of the beliefs and a complete allocation.
 ///

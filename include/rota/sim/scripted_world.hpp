@@ -52,8 +52,8 @@ private:
   [[nodiscard]] micrometres per_tick(double speed) const { return metres(speed) / (seconds(1).ns / options_.tick.ns); }
   [[nodiscard]] point direction() {
     for (;;) {
-      point const v{uniform(engine_, -1000, 1000), uniform(engine_, -1000, 1000)};
-      if (auto const n = length(v); n > 0 && n <= 1000) return rescaled({v.x * 1000, v.y * 1000}, metres(1), n * 1000);
+      point const v{uniform(engine_, -metres(1), metres(1)), uniform(engine_, -metres(1), metres(1))};
+      if (auto const n = length(v); n > 0 && n <= metres(1)) return rescaled(v, metres(1), n);
     }
   }
   [[nodiscard]] point around(point centre, extent e) {

@@ -185,7 +185,7 @@ public:
     d.event = impose(*t, next.atoms);
     d.why = next.reason;
     d.utility = next.utility;
-    d.reason = !next.plan          ? decision_reason::no_valid_allocation
+    d.reason = !next.plan        ? decision_reason::no_valid_allocation
                : d.event.empty() ? decision_reason::kept
                                  : decision_reason::reallocated;
     d.own = t->believed.part(self_);

@@ -11,12 +11,12 @@ namespace rota {
 
 /// What hearing a claim did.
 enum class claim_outcome : unsigned char {
-  adopted,     ///< a new claim, now obeyed
-  revised,     ///< a new version of the obeyed claim
-  repeated,    ///< nothing new; at most the expiry came nearer
-  expired,     ///< that claim, or a later one of its leader, has already ended here: it never revives
-  outranked,   ///< one leads or obeys with a greater stamp; a leader answers with its own claim
-  challenged   ///< one's own stamp is greater: time to claim, once for each claim
+  adopted,    ///< a new claim, now obeyed
+  revised,    ///< a new version of the obeyed claim
+  repeated,   ///< nothing new; at most the expiry came nearer
+  expired,    ///< that claim, or a later one of its leader, has already ended here: it never revives
+  outranked,  ///< one leads or obeys with a greater stamp; a leader answers with its own claim
+  challenged  ///< one's own stamp is greater: time to claim, once for each claim
 };
 
 /// One agent's view of who rules one plan type: nobody, itself, or the leader it obeys (section 4, the bully algorithm).
@@ -171,9 +171,9 @@ private:
   claim<V> claim_;
   instant expiry_{};
   instant next_repeat_{};
-  bool said_ = false;               // the claim was sent at least once
-  std::uint64_t numbers_ = 0;       // claims made by this agent
-  small_vector<grave, 4> graves_;   // ascending by leader; at most one per agent of the roster
+  bool said_ = false;              // the claim was sent at least once
+  std::uint64_t numbers_ = 0;      // claims made by this agent
+  small_vector<grave, 4> graves_;  // ascending by leader; at most one per agent of the roster
 };
 
 }  // namespace rota

@@ -50,11 +50,11 @@ struct reception {
 
 /// What a deliberation came to.
 enum class decision_reason : unsigned char {
-  not_executing,       ///< the agent does not execute this plan type
-  reallocated,         ///< a better allocation was adopted
-  kept,                ///< the allocation stays
-  no_valid_allocation, ///< none is known; nobody has a task
-  obeyed               ///< a leader decides
+  not_executing,        ///< the agent does not execute this plan type
+  reallocated,          ///< a better allocation was adopted
+  kept,                 ///< the allocation stays
+  no_valid_allocation,  ///< none is known; nobody has a task
+  obeyed                ///< a leader decides
 };
 
 /// The answer of `agent::deliberate`.
@@ -74,17 +74,17 @@ struct decision {
 
 /// Parameters of an agent; the defaults are the paper's.
 struct agent_options {
-  std::uint32_t cycles = 4;                  ///< n subsequent cycles are a conflict that does not heal
-  duration pending_age = seconds(1);         ///< see `monitor_options`
-  duration reign = seconds(2);               ///< how long authority lasts
-  duration max_reign = seconds(2);           ///< claims with more time left are refused; at least `reign`
+  std::uint32_t cycles = 4;           ///< n subsequent cycles are a conflict that does not heal
+  duration pending_age = seconds(1);  ///< see `monitor_options`
+  duration reign = seconds(2);        ///< how long authority lasts
+  duration max_reign = seconds(2);    ///< claims with more time left are refused; at least `reign`
   duration message_period = milliseconds(100);
-  duration claim_period = milliseconds(100); ///< how often a leader repeats an unchanged claim
-  duration silence = seconds(2);             ///< an agent not heard of for so long is deleted
-  instant first_message{};                   ///< the phase of the message grid
-  std::uint64_t incarnation = 1;             ///< must grow with every restart of the agent
-  std::uint32_t confidence = 0;              ///< outranks the id in the stamp of claims
-  bool resolution = true;                    ///< off: detect, but neither claim nor obey
+  duration claim_period = milliseconds(100);  ///< how often a leader repeats an unchanged claim
+  duration silence = seconds(2);              ///< an agent not heard of for so long is deleted
+  instant first_message{};                    ///< the phase of the message grid
+  std::uint64_t incarnation = 1;              ///< must grow with every restart of the agent
+  std::uint32_t confidence = 0;               ///< outranks the id in the stamp of claims
+  bool resolution = true;                     ///< off: detect, but neither claim nor obey
 
   friend constexpr bool operator==(agent_options const&, agent_options const&) = default;
 };

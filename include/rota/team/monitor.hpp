@@ -13,8 +13,8 @@ namespace rota {
 
 /// When a monitor fires, and what it forgets.
 struct monitor_options {
-  std::uint32_t cycles = 4;              ///< n of the paper: so many subsequent cycles are a conflict that does not heal
-  duration pending_age = seconds(1);     ///< a message event that no reallocation answered in this time is forgotten
+  std::uint32_t cycles = 4;           ///< n of the paper: so many subsequent cycles are a conflict that does not heal
+  duration pending_age = seconds(1);  ///< a message event that no reallocation answered in this time is forgotten
 
   friend constexpr bool operator==(monitor_options const&, monitor_options const&) = default;
 };
