@@ -153,9 +153,8 @@ void difference_sparse(benchmark::State& state) {
 }
 void difference_set_algorithms(benchmark::State& state) {
   auto const inputs = convert<sorted>(set_pairs(size_of(state)), [](atoms const& c) { return to<sorted>(c); });
-  rotate(state, inputs, [](auto const& p) {
-    return std::pair{subtract(p.second, p.first), subtract(p.first, p.second)};
-  });
+  rotate(state, inputs,
+         [](auto const& p) { return std::pair{subtract(p.second, p.first), subtract(p.first, p.second)}; });
 }
 
 void apply_sparse(benchmark::State& state) {
@@ -192,8 +191,7 @@ void delta_sum(benchmark::State& state) {
   rotate(state, pairs, [](auto const& p) { return p.first + p.second; });
 }
 void delta_sum_map(benchmark::State& state) {
-  auto const inputs =
-      convert<map_delta>(event_pairs(size_of(state)), [](event const& e) { return to_map(delta{e}); });
+  auto const inputs = convert<map_delta>(event_pairs(size_of(state)), [](event const& e) { return to_map(delta{e}); });
   rotate(state, inputs, [](auto const& p) { return add_maps(p.first, p.second); });
 }
 
@@ -203,7 +201,9 @@ void few_sizes(Benchmark* b) { b->ArgName("atoms")->Arg(4)->Arg(64)->Arg(4096); 
 
 BENCHMARK(compose_sparse)->Name("compose/sparse")->Apply(sizes);
 BENCHMARK(compose_peer<std::set<atom>>)->Name("compose/sparse/peer:std_set_naive")->Apply(sizes);
-BENCHMARK(compose_peer<boost::container::flat_set<atom>>)->Name("compose/sparse/peer:boost_flat_set_naive")->Apply(sizes);
+BENCHMARK(compose_peer<boost::container::flat_set<atom>>)
+    ->Name("compose/sparse/peer:boost_flat_set_naive")
+    ->Apply(sizes);
 BENCHMARK(compose_set_algorithms)->Name("compose/sparse/peer:std_set_algorithms")->Apply(sizes);
 BENCHMARK(compose_memcpy)->Name("compose/sparse/peer:memcpy_of_input")->Apply(sizes);
 BENCHMARK(difference_sparse)->Name("difference")->Apply(few_sizes);

@@ -33,9 +33,8 @@ sim::play_options minute(std::size_t robots, std::uint64_t seed) {
 
 std::uint64_t deliberations(sim::playbook const& book, sim::play_options const& options) {
   std::uint64_t count = 0;
-  auto const measured = sim::play(book, options, [&](sim::log_record const& r) {
-    count += r.what == sim::happening::deliberated;
-  });
+  auto const measured =
+      sim::play(book, options, [&](sim::log_record const& r) { count += r.what == sim::happening::deliberated; });
   benchmark::DoNotOptimize(measured);
   return count;
 }

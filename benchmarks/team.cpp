@@ -113,8 +113,8 @@ void counted(benchmark::State& state, F&& f) {
     auto&& result = f();
     benchmark::DoNotOptimize(result);
   }
-  state.counters["heap_allocations"] = benchmark::Counter(
-      static_cast<double>(rota_test::allocation_count() - before), benchmark::Counter::kAvgIterations);
+  state.counters["heap_allocations"] = benchmark::Counter(static_cast<double>(rota_test::allocation_count() - before),
+                                                          benchmark::Counter::kAvgIterations);
 }
 
 void deliberate_unchanged(benchmark::State& state) {

@@ -164,8 +164,7 @@ std::string as_text(evaluation const& e, sim::playbook const& book, options cons
          "  the true world asks for. Off and on see the same, bit for bit.\n\n" +
          laid_out(words) +
          "\n  The simulated world is stated in include/rota/sim (scenario.hpp, perception.hpp, network.hpp) and not\n"
-         "  fitted to the paper: how often conflicts arise and who is right depends on it, how long they last does "
-         "not.\n";
+         "  fitted to the paper: how often conflicts arise, how long they linger and who is right depend on it.\n";
 }
 
 outcome run_reproduce(options const& o) {
