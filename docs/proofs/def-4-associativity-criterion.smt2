@@ -1,0 +1,82 @@
+; (e∘f)∘g = e∘(f∘g) iff no atom x has (e(x), f(x), g(x)) among (s, s, −s), (−s, s, s). Moreover the two differ at those
+; atoms and at no others, which is what non_associating_atoms returns.
+; Paper: Def. 4 (repair of the group claim).
+; Theory: docs/algebra.md, When brackets do not matter.
+; Code: associates, non_associating_atoms. Tests: event.associator_vanishes_iff_no_bad_sign_triple.
+
+(declare-const e Pair)
+(declare-const f Pair)
+(declare-const g Pair)
+(assert (is_event e))
+(assert (is_event f))
+(assert (is_event g))
+(define-fun left () Pair (compose (compose e f) g))
+(define-fun right () Pair (compose e (compose f g)))
+(define-fun bad () Atoms
+  (unite (unite (intersect (plus e) (intersect (plus f) (minus g))) (intersect (minus e) (intersect (minus f) (plus g))))
+         (unite (intersect (plus e) (intersect (minus f) (minus g))) (intersect (minus e) (intersect (plus f) (plus g))))))
+(define-fun differ ((c Atoms) (d Atoms)) Atoms (unite (subtract c d) (subtract d c)))
+
+(push)
+(assert (not (= bad none)))
+(echo "possible: three events with a bad atom")
+(set-info :status sat)
+(check-sat)
+(pop)
+
+(push)
+(assert (= bad none))
+(assert (not (= (intersect (mentioned e) (intersect (mentioned f) (mentioned g))) none)))
+(echo "possible: three events that share an atom, without a bad one")
+(set-info :status sat)
+(check-sat)
+(pop)
+
+(push)
+(assert (= left right))
+(assert (not (= bad none)))
+(echo "proved: if both brackets agree, no atom is bad")
+(set-info :status unsat)
+(check-sat)
+(pop)
+
+(push)
+(assert (= bad none))
+(assert (not (= left right)))
+(echo "proved: if no atom is bad, both brackets agree")
+(set-info :status unsat)
+(check-sat)
+(pop)
+
+(push)
+(assert (not (= (unite (differ (plus left) (plus right)) (differ (minus left) (minus right))) bad)))
+(echo "proved: the brackets differ at the bad atoms and at no others")
+(set-info :status unsat)
+(check-sat)
+(pop)
+
+(push)
+(declare-const x Atom)
+(define-fun bad_at ((s Int) (t Int) (u Int)) Bool (and (not (= s 0)) (= u (- s)) (or (= t s) (= t u))))
+(assert (not (= (has bad x) (bad_at (value e x) (value f x) (value g x)))))
+(echo "proved: the bad atoms are those with signs (s, s, −s) or (−s, s, s)")
+(set-info :status unsat)
+(check-sat)
+(pop)
+
+(push)
+(assert (= left right))
+(assert (not (= (intersect (mentioned e) (intersect (mentioned f) (mentioned g))) none)))
+(echo "refuted: the brackets agree only if no atom is mentioned three times")
+(set-info :status sat)
+(check-sat)
+(pop)
+
+(push)
+(assert (= (intersect (plus e) (intersect (plus f) (minus g))) none))
+(assert (= (intersect (minus e) (intersect (minus f) (plus g))) none))
+(assert (not (= left right)))
+(echo "refuted: forbidding (s, s, −s) suffices")
+(set-info :status sat)
+(check-sat)
+(pop)

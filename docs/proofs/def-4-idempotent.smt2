@@ -1,0 +1,51 @@
+; e∘e = e for every event; hence events are no group.
+; Paper: Def. 4 (group claim, refuted).
+; Theory: docs/algebra.md, Not a group.
+; Code: compose. Tests: event.composing_with_itself_changes_nothing.
+
+(push)
+(declare-const e Pair)
+(assert (is_event e))
+(push)
+(assert (not (= e nothing)))
+(echo "possible: an event other than the identity")
+(set-info :status sat)
+(check-sat)
+(pop)
+(push)
+(assert (not (= (compose e e) e)))
+(echo "proved: e∘e = e")
+(set-info :status unsat)
+(check-sat)
+(pop)
+(push)
+(assert (not (= (compose e (inverse e)) e)))
+(echo "refuted: e∘e⁻¹ = e")
+(set-info :status sat)
+(check-sat)
+(pop)
+(pop)
+
+; Any group whatever, in which one element equals its own square.
+(declare-sort G 0)
+(declare-fun op (G G) G)
+(declare-fun inv (G) G)
+(declare-const one G)
+(declare-const g G)
+(assert (forall ((a G) (b G) (c G)) (= (op (op a b) c) (op a (op b c)))))
+(assert (forall ((a G)) (and (= (op a one) a) (= (op one a) a))))
+(assert (forall ((a G)) (and (= (op a (inv a)) one) (= (op (inv a) a) one))))
+(assert (= (op g g) g))
+
+(push)
+(echo "possible: a group with an idempotent element")
+(set-info :status sat)
+(check-sat)
+(pop)
+
+(push)
+(assert (not (= g one)))
+(echo "proved: in a group only the identity is idempotent")
+(set-info :status unsat)
+(check-sat)
+(pop)

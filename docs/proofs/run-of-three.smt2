@@ -1,0 +1,77 @@
+; Of a run e, f, g, events that are consecutively applicable from some C, both bracketings are the same event, and it is
+; the one that leads from the first set to the last.
+; Paper: Def. 4 as Def. 5 uses it (repair of the group claim).
+; Theory: docs/algebra.md, Why the paper's use is sound.
+; Code: compose. Tests: run.every_bracketing_is_one_event_the_clamped_sum_which_needs_no_clamp,
+; run.brackets_may_agree_without_being_a_run, run.a_permuted_run_may_depend_on_brackets.
+
+(declare-const e Pair)
+(declare-const f Pair)
+(declare-const g Pair)
+(declare-const c Atoms)
+(assert (is_event e))
+(assert (is_event f))
+(assert (is_event g))
+(define-fun run () Bool
+  (and (applicable e c) (applicable f (apply e c)) (applicable g (apply f (apply e c)))))
+(define-fun left () Pair (compose (compose e f) g))
+(define-fun right () Pair (compose e (compose f g)))
+
+(push)
+(assert run)
+(assert (not (= (intersect (mentioned e) (intersect (mentioned f) (mentioned g))) none)))
+(echo "possible: a run in which an atom comes, goes and comes, or the other way round")
+(set-info :status sat)
+(check-sat)
+(pop)
+
+(push)
+(assert run)
+(assert (not (= left right)))
+(echo "proved: of a run, (e∘f)∘g = e∘(f∘g)")
+(set-info :status unsat)
+(check-sat)
+(pop)
+
+(push)
+(assert run)
+(assert (not (= left (difference c (apply g (apply f (apply e c)))))))
+(echo "proved: of a run, (e∘f)∘g is the difference of the first set and the last")
+(set-info :status unsat)
+(check-sat)
+(pop)
+
+(push)
+(assert (applicable e c))
+(assert (applicable f (apply e c)))
+(assert (not (= left right)))
+(echo "refuted: so it is also if g is not applicable after f")
+(set-info :status sat)
+(check-sat)
+(pop)
+
+(push)
+(assert run)
+(assert (not (= (compose (compose e g) f) (compose e (compose g f)))))
+(echo "refuted: a run may be permuted, and brackets still do not matter")
+(set-info :status sat)
+(check-sat)
+(pop)
+
+(push)
+(declare-const x Atom)
+(assert (= e f (pair (only x) none)))
+(assert (= g nothing))
+(push)
+(assert (= left right))
+(echo "possible: adding one atom twice, the brackets agree")
+(set-info :status sat)
+(check-sat)
+(pop)
+(push)
+(assert run)
+(echo "proved: that is no run from any set")
+(set-info :status unsat)
+(check-sat)
+(pop)
+(pop)
