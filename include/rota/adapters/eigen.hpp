@@ -121,7 +121,7 @@ private:
 template <ordered_atom Atom>
 struct unnumbered {
   Atom witness{};
-  friend constexpr bool operator==(unnumbered const&, unnumbered const&) = default;
+  friend bool operator==(unnumbered const&, unnumbered const&) = default;
 };
 
 /// An element of ℤ^n, or of {−1, 0, +1}^n.

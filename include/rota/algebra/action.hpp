@@ -8,7 +8,7 @@ namespace rota {
 template <ordered_atom Atom>
 struct inapplicable {
   Atom witness{};  ///< added though already in C, or subtracted though not in C
-  friend constexpr bool operator==(inapplicable const&, inapplicable const&) = default;
+  friend bool operator==(inapplicable const&, inapplicable const&) = default;
 };
 
 /// diff(C, C′) = (C′ ∖ C, C ∖ C′): the only event that is applicable at C and leads to C′. O(|C| + |C′|).

@@ -61,9 +61,9 @@ public:
   }
   constexpr void clear() noexcept { atoms_.clear(); }
 
-  friend constexpr bool operator==(atom_set const&, atom_set const&) = default;
+  friend bool operator==(atom_set const&, atom_set const&) = default;
   /// A total order of sets (lexicographic), so that sets can be atoms and keys. It is not inclusion.
-  friend constexpr auto operator<=>(atom_set const&, atom_set const&) = default;
+  friend auto operator<=>(atom_set const&, atom_set const&) = default;
 
   /// The set of these atoms. @pre strictly ascending
   [[nodiscard]] static constexpr atom_set from_ascending(small_vector<Atom, 8> atoms) {

@@ -13,7 +13,7 @@ namespace rota {
 template <ordered_atom Atom>
 struct coefficient_overflow {
   Atom witness{};
-  friend constexpr bool operator==(coefficient_overflow const&, coefficient_overflow const&) = default;
+  friend bool operator==(coefficient_overflow const&, coefficient_overflow const&) = default;
 };
 
 /// One entry of a delta; the stored multiplicity is never zero.
@@ -22,7 +22,7 @@ struct multiple {
   Atom atom{};
   Coefficient count{};
 
-  friend constexpr auto operator<=>(multiple const&, multiple const&) = default;
+  friend auto operator<=>(multiple const&, multiple const&) = default;
 };
 
 /// What stands for ℤ: signed integers, or an exact big integer.
@@ -78,9 +78,9 @@ public:
     return where != end() && where->atom == x ? where->count : Coefficient{};
   }
 
-  friend constexpr bool operator==(delta const&, delta const&) = default;
+  friend bool operator==(delta const&, delta const&) = default;
   /// A total order (lexicographic by entries), for keys only.
-  friend constexpr auto operator<=>(delta const&, delta const&) = default;
+  friend auto operator<=>(delta const&, delta const&) = default;
 
   [[nodiscard]] friend constexpr delta operator+(delta const& d, delta const& e) {
     auto sum = checked_sum(d, e);

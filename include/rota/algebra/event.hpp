@@ -26,14 +26,14 @@ struct signed_atom {
   Atom atom{};
   sign value = sign::plus;
 
-  friend constexpr auto operator<=>(signed_atom const&, signed_atom const&) = default;
+  friend auto operator<=>(signed_atom const&, signed_atom const&) = default;
 };
 
 /// Refusal: one atom is both added and subtracted, so the two sets are no event (Def. 3).
 template <ordered_atom Atom>
 struct overlap {
   Atom witness{};
-  friend constexpr bool operator==(overlap const&, overlap const&) = default;
+  friend bool operator==(overlap const&, overlap const&) = default;
 };
 
 /// An allocation event e = (ϑ⁺, ϑ⁻) of Def. 3: a finitely supported sign function Atoms → {−1, 0, +1}.
@@ -92,9 +92,9 @@ public:
   /// ϑ⁻.
   [[nodiscard]] constexpr atom_set<Atom> subtractions() const { return part(sign::minus); }
 
-  friend constexpr bool operator==(event const&, event const&) = default;
+  friend bool operator==(event const&, event const&) = default;
   /// A total order (lexicographic by entries), for keys only.
-  friend constexpr auto operator<=>(event const&, event const&) = default;
+  friend auto operator<=>(event const&, event const&) = default;
 
   /// The event with these entries. @pre strictly ascending by atom, no sign zero
   [[nodiscard]] static constexpr event from_entries(small_vector<entry, 8> entries) {

@@ -31,7 +31,7 @@ struct fixed_utility {
   static constexpr double units_per_one = 1048576.0;  // 2^20
   std::int64_t units = 0;
 
-  friend constexpr auto operator<=>(fixed_utility, fixed_utility) = default;
+  friend auto operator<=>(fixed_utility, fixed_utility) = default;
 };
 
 /// The fixed-point value nearest to u, halves away from zero, whatever the rounding mode; or why there is none.

@@ -10,7 +10,7 @@ namespace rota {
 struct hysteresis {
   std::optional<double> absolute{};  ///< unset: the running plan's own `hysteresis()`; @pre not negative, not NaN
 
-  friend constexpr bool operator==(hysteresis const&, hysteresis const&) = default;
+  friend bool operator==(hysteresis const&, hysteresis const&) = default;
 };
 
 /// h as a fixed-point gain. A gain beyond `max_utility` counts as one that nothing reaches.

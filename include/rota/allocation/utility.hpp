@@ -15,7 +15,7 @@ struct utility_refusal {
   utility_fault why{};
   std::optional<in<V>> atom{};
 
-  friend constexpr bool operator==(utility_refusal const&, utility_refusal const&) = default;
+  friend bool operator==(utility_refusal const&, utility_refusal const&) = default;
 };
 
 /// One term of an additive utility, in fixed point.

@@ -45,7 +45,7 @@ struct violation {
   utility_fault fault{};            ///< 5: none or threw; 6: negative, or why U_p is not a number
   double value = 0;                 ///< 6: U_p, if negative
 
-  friend constexpr bool operator==(violation const&, violation const&) = default;
+  friend bool operator==(violation const&, violation const&) = default;
 };
 
 /// Every violation of an allocation, in the order of `clause` (those of (6) together), then ascending by atom, task or
@@ -79,7 +79,7 @@ public:
     plan_ = p;
   }
 
-  friend constexpr bool operator==(validity_report const&, validity_report const&) = default;
+  friend bool operator==(validity_report const&, validity_report const&) = default;
 
 private:
   small_vector<violation<V>, 1> found_;

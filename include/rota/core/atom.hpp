@@ -17,7 +17,7 @@ struct in {
   typename V::task task{};
 
   // strong_ordering, not auto: derived from < and == for names that predate <=>, which `identifier` admits.
-  friend constexpr std::strong_ordering operator<=>(in const&, in const&) = default;
+  friend std::strong_ordering operator<=>(in const&, in const&) = default;
 };
 
 /// The atom In(a, p, τ, z): as `in`, and a currently inhabits state z. (Source: section 3.)
@@ -31,7 +31,7 @@ struct in_state {
   typename V::task task{};
   typename V::state state{};
 
-  friend constexpr std::strong_ordering operator<=>(in_state const&, in_state const&) = default;
+  friend std::strong_ordering operator<=>(in_state const&, in_state const&) = default;
 };
 
 /// In(a, p, τ, z) ↦ In(a, p, τ).

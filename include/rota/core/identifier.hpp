@@ -22,7 +22,7 @@ struct strong_id {
   using rep = Rep;
   Rep value{};
 
-  friend constexpr std::strong_ordering operator<=>(strong_id const&, strong_id const&) = default;
+  friend std::strong_ordering operator<=>(strong_id const&, strong_id const&) = default;
 };
 
 }  // namespace rota

@@ -56,7 +56,7 @@ public:
     return std::get<1>(state_);
   }
 
-  friend constexpr bool operator==(result const&, result const&) = default;
+  friend bool operator==(result const&, result const&) = default;
 
 private:
   std::variant<T, Refusal> state_;

@@ -10,7 +10,7 @@ namespace rota {
 struct duration {
   std::int64_t ns = 0;
 
-  friend constexpr auto operator<=>(duration, duration) = default;
+  friend auto operator<=>(duration, duration) = default;
   friend constexpr duration operator+(duration a, duration b) noexcept { return {a.ns + b.ns}; }
   friend constexpr duration operator-(duration a, duration b) noexcept { return {a.ns - b.ns}; }
   friend constexpr duration operator-(duration a) noexcept { return {-a.ns}; }
@@ -22,7 +22,7 @@ struct duration {
 struct instant {
   std::int64_t ns = 0;
 
-  friend constexpr auto operator<=>(instant, instant) = default;
+  friend auto operator<=>(instant, instant) = default;
   friend constexpr instant operator+(instant t, duration d) noexcept { return {t.ns + d.ns}; }
   friend constexpr instant operator-(instant t, duration d) noexcept { return {t.ns - d.ns}; }
   friend constexpr duration operator-(instant a, instant b) noexcept { return {a.ns - b.ns}; }

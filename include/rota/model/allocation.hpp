@@ -22,7 +22,7 @@ struct allocation {
   typename V::plan_type type{};
   allocation_atoms<V> atoms;
 
-  friend constexpr bool operator==(allocation const&, allocation const&) = default;
+  friend bool operator==(allocation const&, allocation const&) = default;
 };
 
 /// b's part of C: its atoms In(b, ·, ·), contiguous because atoms are ordered by agent first. O(log |C|).

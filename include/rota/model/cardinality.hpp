@@ -12,7 +12,7 @@ namespace rota {
 struct empty_interval {
   std::uint32_t min = 0;
   std::uint32_t max = 0;
-  friend constexpr bool operator==(empty_interval const&, empty_interval const&) = default;
+  friend bool operator==(empty_interval const&, empty_interval const&) = default;
 };
 
 /// ξ(p, τ) = [n₁, n₂]: how many agents may take on a task, both ends included; n₂ may be `unbounded`.
@@ -41,7 +41,7 @@ public:
     return n >= min_ && (!is_bounded() || n <= max_);
   }
 
-  friend constexpr auto operator<=>(cardinality const&, cardinality const&) = default;
+  friend auto operator<=>(cardinality const&, cardinality const&) = default;
 
 private:
   std::uint32_t min_ = 0;

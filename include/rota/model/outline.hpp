@@ -17,7 +17,7 @@ public:
     typename V::plan plan{};
     typename V::task task{};
     typename V::state state{};
-    friend constexpr bool operator==(entry const&, entry const&) = default;
+    friend bool operator==(entry const&, entry const&) = default;
   };
 
   outline() = default;

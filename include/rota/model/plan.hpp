@@ -16,7 +16,7 @@ namespace rota {
 
 /// For teams whose utilities and preconditions read no beliefs.
 struct no_beliefs {
-  friend constexpr bool operator==(no_beliefs, no_beliefs) = default;
+  friend bool operator==(no_beliefs, no_beliefs) = default;
 };
 
 /// One task of a plan: its cardinality ξ(p, τ), and the state in which an agent that takes it on begins.
@@ -26,7 +26,7 @@ struct plan_task {
   cardinality bounds;
   typename V::state entry{};
 
-  friend constexpr bool operator==(plan_task const&, plan_task const&) = default;
+  friend bool operator==(plan_task const&, plan_task const&) = default;
 };
 
 /// What a precondition or a utility may read of an allocation: its atoms, ascending by agent.
@@ -75,7 +75,7 @@ struct plan_defect {
   kind what{};
   typename V::task task{};
 
-  friend constexpr bool operator==(plan_defect const&, plan_defect const&) = default;
+  friend bool operator==(plan_defect const&, plan_defect const&) = default;
 };
 
 /// What a plan is made from; see `plan`.

@@ -19,7 +19,7 @@ struct plan_type_defect {
   kind what{};
   typename V::plan plan{};
 
-  friend constexpr bool operator==(plan_type_defect const&, plan_type_defect const&) = default;
+  friend bool operator==(plan_type_defect const&, plan_type_defect const&) = default;
 };
 
 /// A plan type pt: alternative plans for one problem. A team executes one of them, the best. Immutable.

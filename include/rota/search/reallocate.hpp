@@ -33,7 +33,7 @@ struct reallocation {
   bool optimal = false;          ///< no valid allocation is better than the best one found
   search_work work{};
 
-  friend constexpr bool operator==(reallocation const&, reallocation const&) = default;
+  friend bool operator==(reallocation const&, reallocation const&) = default;
 };
 
 namespace detail {

@@ -15,7 +15,7 @@ struct runner_up {
   typename V::plan plan{};
   double utility = 0;
 
-  friend constexpr bool operator==(runner_up const&, runner_up const&) = default;
+  friend bool operator==(runner_up const&, runner_up const&) = default;
 };
 
 /// The best valid allocation over all plans of a type.
@@ -32,7 +32,7 @@ struct solution {
   /// are invalid, so the answer is right; the filler is not.
   std::optional<utility_refusal<V>> ignored{};
 
-  friend constexpr bool operator==(solution const&, solution const&) = default;
+  friend bool operator==(solution const&, solution const&) = default;
 };
 
 /// Why a plan has no valid allocation, or none that was found.
@@ -62,7 +62,7 @@ struct plan_refusal {
   utility_fault fault{};
   double value = 0;
 
-  friend constexpr bool operator==(plan_refusal const&, plan_refusal const&) = default;
+  friend bool operator==(plan_refusal const&, plan_refusal const&) = default;
 };
 
 /// Refusal: no plan of the type has a valid allocation, or none was found within the budget.
@@ -78,7 +78,7 @@ struct no_allocation {
     return true;
   }
 
-  friend constexpr bool operator==(no_allocation const&, no_allocation const&) = default;
+  friend bool operator==(no_allocation const&, no_allocation const&) = default;
 };
 
 }  // namespace rota

@@ -14,7 +14,7 @@ struct search_budget {
   /// Placements tried in tree search, over all plans of a type. Additive utilities without a precondition need none.
   std::uint64_t nodes = std::uint64_t{1} << 20;
 
-  friend constexpr bool operator==(search_budget, search_budget) = default;
+  friend bool operator==(search_budget, search_budget) = default;
 };
 
 /// What a search did.
@@ -23,7 +23,7 @@ struct search_work {
   std::uint64_t augmentations = 0;  ///< paths pushed by the additive solver
   std::uint64_t relaxations = 0;    ///< arcs the additive solver looked at
 
-  friend constexpr bool operator==(search_work, search_work) = default;
+  friend bool operator==(search_work, search_work) = default;
 };
 
 /// Buffers that searches reuse, so that a steady loop allocates nothing. It holds no result and influences none.

@@ -22,7 +22,7 @@ struct point {
   micrometres x = 0;
   micrometres y = 0;
 
-  friend constexpr bool operator==(point, point) = default;
+  friend bool operator==(point, point) = default;
   friend constexpr point operator+(point a, point b) noexcept { return {a.x + b.x, a.y + b.y}; }
   friend constexpr point operator-(point a, point b) noexcept { return {a.x - b.x, a.y - b.y}; }
 };

@@ -143,7 +143,7 @@ private:
   struct identity {
     std::uint64_t incarnation = 0;
     std::uint64_t number = 0;
-    friend constexpr auto operator<=>(identity const&, identity const&) = default;
+    friend auto operator<=>(identity const&, identity const&) = default;
   };
   struct grave {
     agent_id leader{};

@@ -34,7 +34,7 @@ struct conflict_witness {
   conflict_partner partner{};
   in<V> cause{};
 
-  friend constexpr bool operator==(conflict_witness const&, conflict_witness const&) = default;
+  friend bool operator==(conflict_witness const&, conflict_witness const&) = default;
 };
 
 /// Prop. 1, constructively: for a cause x = In(b, p, τ) ∈ C₁ ∖ C₂ and b's own allocation C_b of that type,

@@ -86,7 +86,7 @@ struct agent_options {
   std::uint32_t confidence = 0;               ///< outranks the id in the stamp of claims
   bool resolution = true;                     ///< off: detect, but neither claim nor obey
 
-  friend constexpr bool operator==(agent_options const&, agent_options const&) = default;
+  friend bool operator==(agent_options const&, agent_options const&) = default;
 };
 
 }  // namespace rota

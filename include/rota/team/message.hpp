@@ -15,7 +15,7 @@ struct message_number {
   std::uint64_t incarnation = 0;  ///< grows with every restart of the sender
   std::uint64_t sequence = 0;     ///< grows with every message of one incarnation
 
-  friend constexpr auto operator<=>(message_number const&, message_number const&) = default;
+  friend auto operator<=>(message_number const&, message_number const&) = default;
 };
 
 /// The plan-task-state triple an agent executes.
@@ -25,7 +25,7 @@ struct placement {
   typename V::task task{};
   typename V::state state{};
 
-  friend constexpr auto operator<=>(placement const&, placement const&) = default;
+  friend auto operator<=>(placement const&, placement const&) = default;
 };
 
 /// What a sender does about one plan type. Without a place: it takes part but has no task, which differs from not taking
@@ -35,7 +35,7 @@ struct participation {
   typename V::plan_type type{};
   std::optional<placement<V>> place;
 
-  friend constexpr bool operator==(participation const&, participation const&) = default;
+  friend bool operator==(participation const&, participation const&) = default;
 };
 
 /// A plan message: a snapshot of everything its sender executes. A type it does not list is one it does not execute.
@@ -46,7 +46,7 @@ struct plan_message {
   message_number number;
   small_vector<participation<V>, 4> types;
 
-  friend constexpr bool operator==(plan_message const&, plan_message const&) = default;
+  friend bool operator==(plan_message const&, plan_message const&) = default;
 };
 
 /// What decides between claimants: totally ordered, computed once and frozen for a claim, never NaN.
@@ -57,7 +57,7 @@ struct claim_stamp {
   std::uint32_t confidence = 0;
   typename V::agent id{};
 
-  friend constexpr auto operator<=>(claim_stamp const&, claim_stamp const&) = default;
+  friend auto operator<=>(claim_stamp const&, claim_stamp const&) = default;
 };
 
 /// A leader's claim of authority over one plan type (section 4, the bully algorithm).
@@ -75,7 +75,7 @@ struct claim {
   std::uint64_t version = 0;
   duration remaining;
 
-  friend constexpr bool operator==(claim const&, claim const&) = default;
+  friend bool operator==(claim const&, claim const&) = default;
 };
 
 /// Everything an agent says.

@@ -16,7 +16,7 @@ struct monitor_options {
   std::uint32_t cycles = 4;           ///< n of the paper: so many subsequent cycles are a conflict that does not heal
   duration pending_age = seconds(1);  ///< a message event that no reallocation answered in this time is forgotten
 
-  friend constexpr bool operator==(monitor_options const&, monitor_options const&) = default;
+  friend bool operator==(monitor_options const&, monitor_options const&) = default;
 };
 
 /// What one deliberation meant to a monitor.
