@@ -28,8 +28,9 @@ struct allocation {
 /// b's part of C: its atoms In(b, ·, ·), contiguous because atoms are ordered by agent first. O(log |C|).
 template <vocabulary V>
 [[nodiscard]] constexpr std::span<in<V> const> part_of(allocation_atoms<V> const& c, typename V::agent b) {
+  // `key > x.agent`, not `x.agent < key`: where the class template `agent` is declared, clang reads a template there.
   auto const* first =
-      std::lower_bound(c.begin(), c.end(), b, [](in<V> const& x, typename V::agent key) { return x.agent < key; });
+      std::lower_bound(c.begin(), c.end(), b, [](in<V> const& x, typename V::agent key) { return key > x.agent; });
   auto const* last =
       std::upper_bound(first, c.end(), b, [](typename V::agent key, in<V> const& x) { return key < x.agent; });
   return {first, last};
@@ -39,7 +40,7 @@ template <vocabulary V>
 template <vocabulary V>
 [[nodiscard]] constexpr bool mentions(event<in<V>> const& e, typename V::agent b) {
   auto const* first = std::lower_bound(
-      e.begin(), e.end(), b, [](signed_atom<in<V>> const& x, typename V::agent key) { return x.atom.agent < key; });
+      e.begin(), e.end(), b, [](signed_atom<in<V>> const& x, typename V::agent key) { return key > x.atom.agent; });
   return first != e.end() && first->atom.agent == b;
 }
 
