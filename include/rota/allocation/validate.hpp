@@ -154,7 +154,7 @@ void judge_team(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, s
   auto const* x = atoms.data();
   auto const* const end = x + atoms.size();
   for (typename V::agent const a : problem.participants) {
-    while (x != end && (x->agent < a || (x->agent == a && x->plan != p.id()))) ++x;
+    while (x != end && (a > x->agent || (x->agent == a && x->plan != p.id()))) ++x;
     if (x != end && x->agent == a) continue;
     violation<V> v;
     v.what = clause::idle_forbidden;
