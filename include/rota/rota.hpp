@@ -7,6 +7,8 @@
 #include <rota/algebra/atom_set.hpp>
 #include <rota/algebra/delta.hpp>
 #include <rota/algebra/event.hpp>
+#include <rota/algebra/runs.hpp>
+#include <rota/algebra/structures.hpp>
 #include <rota/allocation/problem.hpp>
 #include <rota/allocation/utility.hpp>
 #include <rota/allocation/validate.hpp>

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <rota/algebra/delta.hpp>
+#include <rota/core/atom.hpp>
+
+#include <compare>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace rota {
+
+/// An element of ℤ/2⁶⁴, written additively; the value of the homomorphism h below.
+struct fingerprint {
+  std::uint64_t value = 0;
+
+  friend auto operator<=>(fingerprint, fingerprint) = default;
+  friend constexpr fingerprint operator+(fingerprint a, fingerprint b) noexcept { return {a.value + b.value}; }
+  friend constexpr fingerprint operator-(fingerprint a, fingerprint b) noexcept { return {a.value - b.value}; }
+  friend constexpr fingerprint operator-(fingerprint a) noexcept { return {0 - a.value}; }
+  friend constexpr fingerprint operator*(std::int64_t n, fingerprint a) noexcept {
+    return {static_cast<std::uint64_t>(n) * a.value};
+  }
+};
+
+namespace detail {
+
+/// The SplitMix64 finaliser, a bijection of 64-bit words.
+[[nodiscard]] constexpr std::uint64_t mix(std::uint64_t x) noexcept {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+}  // namespace detail
+
+/// Feeds a name or number, word by word, into the code of an atom. Specialise for identifiers that are neither
+/// enumerations, integers, nor `strong_id`s of those: `static constexpr void feed(T const&, Sink& sink)`, where
+/// `sink(std::uint64_t)` takes a word and the words determine the value.
+template <class T>
+struct atom_encoding;
+
+template <class T>
+  requires std::integral<T> || std::is_enum_v<T>
+struct atom_encoding<T> {
+  static constexpr void feed(T const& x, auto&& sink) { sink(static_cast<std::uint64_t>(x)); }
+};
+template <class Tag, class Rep>
+struct atom_encoding<strong_id<Tag, Rep>> {
+  static constexpr void feed(strong_id<Tag, Rep> const& x, auto&& sink) { atom_encoding<Rep>::feed(x.value, sink); }
+};
+template <vocabulary V>
+struct atom_encoding<in<V>> {
+  static constexpr void feed(in<V> const& x, auto&& sink) {
+    atom_encoding<typename V::agent>::feed(x.agent, sink);
+    atom_encoding<typename V::plan>::feed(x.plan, sink);
+    atom_encoding<typename V::task>::feed(x.task, sink);
+  }
+};
+
+/// An atom with an encoding into words.
+template <class T>
+concept encodable_atom =
+    ordered_atom<T> && requires(T const& x, void (*sink)(std::uint64_t)) { atom_encoding<T>::feed(x, sink); };
+
+/// r(x) ≠ 0, a fixed mix of the encoding of x: the code of a generator.
+template <encodable_atom Atom>
+[[nodiscard]] constexpr fingerprint code(Atom const& x) {
+  std::uint64_t r = 0x9e3779b97f4a7c15u;
+  atom_encoding<Atom>::feed(x, [&](std::uint64_t word) { r = detail::mix(r ^ word) + 0x9e3779b97f4a7c15u; });
+  r = detail::mix(r);
+  return {r != 0 ? r : 1};
+}
+
+/// h(δ) = Σ δ(x)·r(x), a homomorphism delta → ℤ/2⁶⁴: h(δ + ε) = h(δ) + h(ε), in any order, hence incremental.
+///
+/// 8 bytes that tell allocations apart: were r uniform and independent, two unequal allocations would meet with
+/// probability 2⁻⁶⁴ per comparison; a delta all of whose coefficients are multiples of 2^v vanishes with 2^(v−64). r is
+/// fixed and public, so this is a heuristic and no defence against an adversary. O(|δ|).
+template <encodable_atom Atom, std::signed_integral Coefficient>
+[[nodiscard]] constexpr fingerprint fingerprint_of(delta<Atom, Coefficient> const& d) {
+  fingerprint h;
+  for (auto const& x : d) h = h + static_cast<std::int64_t>(x.count) * code(x.atom);
+  return h;
+}
+/// h(ι(e)). O(|e|), no allocation.
+template <encodable_atom Atom>
+[[nodiscard]] constexpr fingerprint fingerprint_of(event<Atom> const& e) {
+  fingerprint h;
+  for (auto const& x : e) h = x.value == sign::plus ? h + code(x.atom) : h - code(x.atom);
+  return h;
+}
+/// h(χ(C)). Law: h(e·C) = h(C) + h(e) wherever e is applicable at C. O(|C|), no allocation.
+template <encodable_atom Atom>
+[[nodiscard]] constexpr fingerprint fingerprint_of(atom_set<Atom> const& c) {
+  fingerprint h;
+  for (auto const& x : c) h = h + code(x);
+  return h;
+}
+
+}  // namespace rota

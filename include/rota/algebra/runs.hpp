@@ -1,0 +1,59 @@
+#pragma once
+
+#include <rota/algebra/delta.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace rota {
+
+/// Refusal: at this atom two events of a sequence have the same sign and none between them mentions it, so the sequence
+/// is applicable from no set.
+template <ordered_atom Atom>
+struct no_run {
+  Atom witness{};
+  std::size_t first = 0;   ///< index of the earlier event
+  std::size_t second = 0;  ///< index of the later one
+  friend bool operator==(no_run const&, no_run const&) = default;
+};
+
+/// e₁∘…∘eₙ in any brackets, for a run: events that are consecutively applicable from some set; else where they are not.
+///
+/// The paper's use of composition, and the condition that makes it sound: at each atom the nonzero signs alternate. Then
+/// every bracketing of Def. 4 is this event, it is the sum of the ι(eᵢ), and it is applicable wherever e₁ starts a run.
+/// The order of the events matters. O(N log N) for N entries in all.
+template <ordered_atom Atom>
+[[nodiscard]] constexpr result<event<Atom>, no_run<Atom>> compose_run(std::span<event<Atom> const> events) {
+  struct mention {
+    Atom atom;
+    std::size_t index;
+    sign value;
+  };
+  std::vector<mention> mentions;
+  for (std::size_t i = 0; i < events.size(); ++i)
+    for (auto const& x : events[i]) mentions.push_back({x.atom, i, x.value});
+  std::sort(mentions.begin(), mentions.end(),
+            [](mention const& x, mention const& y) { return x.atom == y.atom ? x.index < y.index : x.atom < y.atom; });
+  small_vector<signed_atom<Atom>, 8> entries;
+  for (auto m = mentions.begin(); m != mentions.end();) {
+    auto const first = m;
+    for (++m; m != mentions.end() && m->atom == first->atom; ++m)
+      if (m->value == (m - 1)->value) return refused{no_run<Atom>{m->atom, (m - 1)->index, m->index}};
+    if ((m - first) % 2 != 0) entries.push_back({first->atom, first->value});
+  }
+  return event<Atom>::from_entries(std::move(entries));
+}
+
+/// δ₁ + … + δₙ. Any order and any brackets give the same, if each arrives exactly once. @pre no partial sum overflows.
+/// O(N log n) for N entries in n deltas.
+template <ordered_atom Atom, integer_coefficient Coefficient>
+[[nodiscard]] constexpr delta<Atom, Coefficient> sum(std::span<delta<Atom, Coefficient> const> deltas) {
+  if (deltas.empty()) return {};
+  if (deltas.size() == 1) return deltas.front();
+  auto const half = deltas.size() / 2;
+  return sum(deltas.first(half)) + sum(deltas.subspan(half));
+}
+
+}  // namespace rota

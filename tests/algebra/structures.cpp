@@ -1,0 +1,52 @@
+// What each type claims to be, what no type may claim, and the parts of the algebra that hold in constant expressions.
+
+#include "algebra/universe.hpp"
+
+#include <rota/algebra/associativity.hpp>
+#include <rota/algebra/runs.hpp>
+#include <rota/algebra/structures.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <concepts>
+#include <string>
+
+namespace {
+
+using universe::atom;
+using universe::atom_set;
+using universe::delta;
+using universe::event;
+using universe::nth;
+using transition = rota::transition<atom>;
+
+// The claim of the paper, and what is true instead.
+static_assert(!rota::abelian_group<event> && !rota::group<event> && !rota::monoid<event>);
+static_assert(rota::invertible_magma<event> && rota::commutative_magma<event>);
+static_assert(rota::abelian_group<delta> && rota::abelian_group<rota::fingerprint>);
+static_assert(rota::groupoid<transition> && !rota::magma<transition> && !rota::groupoid<delta>);
+static_assert(rota::group_action<delta, rota::fingerprint>);
+static_assert(!rota::group_action<event, atom_set> && !rota::group_action<event, rota::fingerprint>);
+// Nothing has a structure that nobody gave it.
+static_assert(!rota::magma<int> && !rota::magma<std::string> && !rota::magma<atom_set>);
+
+// The shortest refutation and the criterion, by the compiler.
+constexpr auto s = event::addition(nth(0));
+constexpr auto u = rota::inverse(s);
+static_assert(rota::compose(rota::compose(s, s), u) == event{} && rota::compose(s, rota::compose(s, u)) == s);
+static_assert(!rota::associates(s, s, u) && *rota::non_associating_atoms(s, s, u).begin() == nth(0));
+static_assert(rota::associates(s, u, s));
+// The same three in the group.
+static_assert((delta(s) + delta(s)) + delta(u) == delta(s) + (delta(s) + delta(u)));
+static_assert(rota::clamp(delta(s) + delta(u)) == event{} && 2 * delta(s) != delta(rota::compose(s, s)));
+// A robot changes its mind twice, and comes back.
+constexpr bool a_run_composes() {
+  std::array<event, 3> const run{s, u, s};
+  std::array<event, 2> const none{s, s};
+  return *rota::compose_run<atom>(run) == s &&
+         rota::compose_run<atom>(none).error() == rota::no_run<atom>{nth(0), 0, 1};
+}
+static_assert(a_run_composes());
+
+}  // namespace
