@@ -1,34 +1,23 @@
 #include "command.hpp"
+#include "json.hpp"
 #include "target.hpp"
 #include "text.hpp"
 
+#include <rota/adapters/alica/convert.hpp>
 #include <rota/algebra/action.hpp>
 #include <rota/allocation/validate.hpp>
 #include <rota/search/best_allocation.hpp>
 #include <rota/search/reallocate.hpp>
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <initializer_list>
-#include <memory>
+#include <optional>
 #include <set>
 
 namespace rota::cli {
 namespace {
 
-using nlohmann::ordered_json;
 using atom = in<vocabulary>;
-
-struct options {
-  std::vector<std::string> plans;
-  std::string plan_type;
-  std::string utilities;
-  std::string current;
-  bool no_idle = false;
-  bool json = false;
-};
 
 /// Everything a report needs. Views what it is made from.
 struct question {
@@ -116,28 +105,7 @@ std::vector<std::string> idle_agents(question const& q, allocation_atoms<vocabul
   return idle;
 }
 
-ordered_json event_json(question const& q, event<atom> const& e) {
-  auto const list = [&](sign s) {
-    auto out = ordered_json::array();
-    for (auto const& x : e) {
-      if (x.value != s) continue;
-      ordered_json entry = {{"agent", q.who.name(x.atom.agent)}};
-      if (q.where.type != nullptr) entry["plan"] = q.where.name(q.where.plan(x.atom.plan));
-      entry["task"] = q.task(x.atom);
-      out.push_back(std::move(entry));
-    }
-    return out;
-  };
-  return {{"added", list(sign::plus)}, {"removed", list(sign::minus)}};
-}
-
-/// What a running team would do: it does not always change to the best.
-struct decision {
-  bool keep = false;
-  std::string reason;
-};
-
-decision decide(question const& q, workspace& work) {
+named_decision decide(question const& q, workspace& work) {
   auto const r = reallocate(q.problem, q.current, hysteresis{}, work);
   auto const gain = r.gain ? number(*r.gain) : std::string();
   switch (r.reason) {
@@ -155,21 +123,23 @@ decision decide(question const& q, workspace& work) {
   return {false, "the search ended before it found an allocation"};
 }
 
-std::string as_json(question const& q, solution<vocabulary> const& s, workspace& work) {
-  ordered_json out;
-  out["plan"] = q.where.name(q.where.plan(s.plan));
-  out["utility"] = s.utility;
-  out["optimal"] = s.optimal;
-  out["assignment"] = ordered_json::array();
-  for (atom const& x : s.atoms) out["assignment"].push_back({{"agent", q.who.name(x.agent)}, {"task", q.task(x)}});
-  out["idle"] = idle_agents(q, s.atoms);
-  // Without an allocation to compare with, nothing is added or removed.
-  out["event"] = event_json(q, q.has_current ? difference(q.current, s.atoms) : event<atom>{});
-  if (q.has_current) {
-    auto const d = decide(q, work);
-    out["decision"] = {{"keep", d.keep}, {"reason", d.reason}};
-  }
-  return out.dump() + '\n';
+named_change named(question const& q, atom const& x) {
+  auto const plan = [&] { return q.where.name(q.where.plan(x.plan)); };
+  return {q.who.name(x.agent), q.where.type != nullptr ? std::optional(plan()) : std::nullopt, q.task(x)};
+}
+
+named_answer named(question const& q, solution<vocabulary> const& s, workspace& work) {
+  named_answer out;
+  out.plan = q.where.name(q.where.plan(s.plan));
+  out.utility = s.utility;
+  out.optimal = s.optimal;
+  for (atom const& x : s.atoms) out.assignment.emplace_back(q.who.name(x.agent), q.task(x));
+  out.idle = idle_agents(q, s.atoms);
+  if (!q.has_current) return out;  // nothing to compare with: nothing is added or removed
+  for (auto const& x : difference(q.current, s.atoms))
+    (x.value == sign::plus ? out.added : out.removed).push_back(named(q, x.atom));
+  out.decision = decide(q, work);
+  return out;
 }
 
 /// The clauses of validity: what the validator found, and what there is to find.
@@ -255,7 +225,9 @@ std::string as_text(question const& q, solution<vocabulary> const& s, validity_r
   return out;
 }
 
-outcome run_allocate(options const& o) {
+}  // namespace
+
+outcome run_allocate(allocate_options const& o) {
   auto const where = find_target(o.plans, o.plan_type);
   utilities const worth{read_utilities(o.utilities), *where, o.utilities};
   named_allocation old;
@@ -277,39 +249,12 @@ outcome run_allocate(options const& o) {
   if (!best) {
     std::string reason;
     for (auto const& r : best.error().plans) reason += (reason.empty() ? "" : "; ") + explain(r, q);
-    if (o.json) return {ordered_json{{"plan", nullptr}, {"reason", reason}}.dump() + '\n', negative};
+    if (o.json) return {refusal_as_json(reason), negative};
     return {"no valid allocation: " + printable(reason) + '\n', negative};
   }
   auto const report = validate(p, *type.find(best->plan), best->atoms);
   if (!report) throw std::logic_error("the allocation found is not valid: please report this");
-  return {o.json ? as_json(q, *best, work) : as_text(q, *best, report, o.current, work), success};
-}
-
-}  // namespace
-
-void add_allocate(CLI::App& program, chosen_command& chosen) {
-  auto const o = std::make_shared<options>();
-  auto* const command = program.add_subcommand("allocate", "Finds the best allocation of a plan, and says why");
-  command->add_option("--plan", o->plans, "plan files or folders; what they need is found beside them")
-      ->required()
-      ->check(check_not_empty);
-  command->add_option("--plan-type", o->plan_type, "name or id of the plan type whose best plan is wanted")
-      ->check(check_not_empty);
-  command
-      ->add_option("--utilities", o->utilities,
-                   "CSV: header agent,TASK,... (PLAN/TASK with a plan type), one row per agent, empty = forbidden")
-      ->required()
-      ->check(check_not_empty);
-  command->add_flag("--no-idle", o->no_idle, "every agent must have a task");
-  command->add_option("--current", o->current, "JSON, as --json prints it: the allocation to compare with")
-      ->check(check_not_empty);
-  command->add_flag("--json", o->json, "print JSON");
-  command->footer("Utilities count in steps of 2^-20, each cell rounded to the nearest (0.0000001 counts 0), so that\n"
-                  "equal tables give equal answers everywhere. They add up over agents; an idle agent counts 0.\n"
-                  "The event leads from --current to the best allocation; the decision says whether a running team\n"
-                  "would change at all, given the hysteresis of the plan and that equals change nothing.\n"
-                  "Exit status: 0 found, 1 no valid allocation, 2 misuse or a wrong input file.");
-  command->callback([o, &chosen] { chosen = [o] { return run_allocate(*o); }; });
+  return {o.json ? as_json(named(q, *best, work)) : as_text(q, *best, report, o.current, work), success};
 }
 
 }  // namespace rota::cli

@@ -1,99 +1,18 @@
 #include "command.hpp"
+#include "json.hpp"
+#include "load.hpp"
 #include "text.hpp"
 
-#include <rota/adapters/alica.hpp>
-
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <rota/adapters/alica/text.hpp>
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <vector>
 
 namespace rota::cli {
 namespace {
 
 using alica::severity;
-using nlohmann::ordered_json;
-
-struct options {
-  std::vector<std::string> paths;
-  bool json = false;
-};
-
-ordered_json bounds_of(cardinality c) {
-  return {{"min", c.min()}, {"max", c.is_bounded() ? ordered_json(c.max()) : ordered_json(nullptr)}};
-}
-
-std::string choice_name(alica::model const& m, alica::plan_type const& t, alica::plan_choice const& c) {
-  auto const* p = m.find_plan(t.root, c.plan);
-  return p != nullptr && !p->name.empty() ? p->name : std::to_string(c.plan);
-}
-
-std::string as_json(alica::model const& m) {
-  ordered_json out;
-  out["files"] = ordered_json::array();
-  for (auto const& d : m.documents)
-    out["files"].push_back(
-        {{"file", d.file},
-         {"status", to_string(d.status)},
-         {"kind", d.kind == alica::file_kind::none ? ordered_json(nullptr) : ordered_json(to_string(d.kind))},
-         {"format", d.format == alica::file_format::none ? ordered_json(nullptr) : ordered_json(to_string(d.format))},
-         {"id", d.id ? ordered_json(*d.id) : ordered_json(nullptr)},
-         {"name", d.name}});
-  out["plans"] = ordered_json::array();
-  for (auto const& p : m.plans) {
-    auto tasks = ordered_json::array();
-    for (auto const& e : p.entry_points)
-      tasks.push_back({{"task", label(p, e)},
-                       {"id", e.task},
-                       {"entry_point", e.id},
-                       {"cardinality", bounds_of(e.bounds)},
-                       {"state", e.state_name}});
-    out["plans"].push_back({{"plan", p.name},
-                            {"id", p.id},
-                            {"file", p.file},
-                            {"tasks", tasks},
-                            {"team_size", bounds_of(p.team_size)},
-                            {"utility_threshold", p.utility_threshold},
-                            {"precondition", p.precondition ? ordered_json(*p.precondition) : ordered_json(nullptr)}});
-  }
-  out["plan_types"] = ordered_json::array();
-  for (auto const& t : m.plan_types) {
-    auto plans = ordered_json::array();
-    for (auto const& c : t.plans)
-      plans.push_back({{"plan", choice_name(m, t, c)}, {"id", c.plan}, {"activated", c.activated}});
-    out["plan_types"].push_back({{"plan_type", t.name}, {"id", t.id}, {"file", t.file}, {"plans", plans}});
-  }
-  out["tasks"] = ordered_json::array();
-  for (auto const& t : m.tasks) out["tasks"].push_back({{"task", t.name}, {"id", t.id}, {"file", t.file}});
-  out["roles"] = ordered_json::array();
-  for (auto const& r : m.roles) {
-    auto priorities = ordered_json::array();
-    for (auto const& p : r.priorities) {
-      auto const* t = m.find_task(r.root, p.task);
-      priorities.push_back({{"task", t != nullptr ? t->name : ""}, {"id", p.task}, {"priority", p.priority}});
-    }
-    out["roles"].push_back({{"role", r.name},
-                            {"id", r.id},
-                            {"file", r.file},
-                            {"default_priority", r.default_priority},
-                            {"priorities", priorities}});
-  }
-  out["diagnostics"] = ordered_json::array();
-  for (auto const& d : m.diagnostics)
-    out["diagnostics"].push_back({{"severity", to_string(d.severity)},
-                                  {"file", d.file},
-                                  {"place", d.place},
-                                  {"id", d.id ? ordered_json(*d.id) : ordered_json(nullptr)},
-                                  {"reason", d.reason}});
-  out["errors"] = m.count(severity::error);
-  out["warnings"] = m.count(severity::warning);
-  out["ignored"] = m.count(severity::ignored);
-  // File names need not be UTF-8; JSON does.
-  return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
-}
 
 std::string as_text(alica::model const& m) {
   std::string out;
@@ -155,7 +74,9 @@ std::string as_text(alica::model const& m) {
   return out;
 }
 
-outcome run_check(options const& o) {
+}  // namespace
+
+outcome run_check(check_options const& o) {
   std::vector<std::filesystem::path> paths;
   for (auto const& p : o.paths) {
     std::error_code error;
@@ -165,7 +86,7 @@ outcome run_check(options const& o) {
       throw input_error(p, "", std::string(alica::detail::why_ignored(p)));
     paths.emplace_back(p);
   }
-  auto const m = alica::load(paths);
+  auto const m = load_plans(paths);
   for (auto const& p : o.paths)
     if (std::none_of(m.documents.begin(), m.documents.end(), [&](alica::document const& d) {
           return d.file.starts_with(p) &&
@@ -173,19 +94,6 @@ outcome run_check(options const& o) {
         }))
       throw input_error(p, "", "no plan file in this folder");
   return {o.json ? as_json(m) : as_text(m), m.count(severity::error) == 0 ? success : negative};
-}
-
-}  // namespace
-
-void add_check(CLI::App& program, chosen_command& chosen) {
-  auto const o = std::make_shared<options>();
-  auto* const command = program.add_subcommand("check", "Says what plan files hold and what is wrong with them");
-  command->add_option("PATH", o->paths, "plan files, or folders with everything below them")
-      ->required()
-      ->check(check_not_empty);
-  command->add_flag("--json", o->json, "print JSON");
-  command->footer("Exit status: 0 nothing is wrong, 1 errors found in files, 2 misuse, no plan file.");
-  command->callback([o, &chosen] { chosen = [o] { return run_check(*o); }; });
 }
 
 }  // namespace rota::cli

@@ -1,13 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
-
-namespace CLI {
-class App;
-}
+#include <vector>
 
 namespace rota::cli {
 
@@ -32,18 +31,52 @@ struct outcome {
   exit_status status = success;
 };
 
-/// For CLI11: an option whose value is empty is a mistake of the calling script, not one that was left out.
-[[nodiscard]] inline std::string check_not_empty(std::string const& text) {
-  return text.empty() ? "an empty value" : "";
-}
+/// The subcommand that the command line chose, with its options.
+using command = std::function<outcome()>;
 
-/// The subcommand that the command line chose.
-using chosen_command = std::function<outcome()>;
+/// Reads the command line. Where it asks for help or the version, the command yields that. Throws `input_error`.
+[[nodiscard]] command parse_command_line(int argc, char** argv);
 
-/// Each adds one subcommand to the program: its options, and a callback that sets the chosen command. One file each.
-void add_check(CLI::App& program, chosen_command& chosen);
-void add_allocate(CLI::App& program, chosen_command& chosen);
-void add_simulate(CLI::App& program, chosen_command& chosen);
-void add_reproduce(CLI::App& program, chosen_command& chosen);
+// The subcommands, one file each. They know nothing of the command line.
+
+struct check_options {
+  std::vector<std::string> paths;
+  bool json = false;
+};
+[[nodiscard]] outcome run_check(check_options const& o);
+
+struct allocate_options {
+  std::vector<std::string> plans;
+  std::string plan_type;  ///< empty: to be found
+  std::string utilities;
+  std::string current;  ///< empty: none
+  bool no_idle = false;
+  bool json = false;
+};
+[[nodiscard]] outcome run_allocate(allocate_options const& o);
+
+struct simulate_options {
+  std::string scenario;  ///< one that `sim::parse_scenario` knows
+  std::string plan;      ///< empty: the shipped one
+  std::uint64_t seed = 1;
+  std::optional<double> minutes;  ///< none: as long as the scenario says
+  std::size_t robots = 0;
+  double loss = 0;
+  double latency = 0;  ///< ms
+  std::uint32_t cycles = 0;
+  double reign = 0;  ///< s
+  std::string resolution = "on";
+  bool json = false;
+};
+/// The options where the command line is silent: those of the simulation.
+[[nodiscard]] simulate_options default_simulation();
+[[nodiscard]] outcome run_simulate(simulate_options const& o);
+
+struct reproduce_options {
+  std::uint64_t seed = 1;
+  std::string plan;  ///< empty: the shipped one
+  bool json = false;
+};
+[[nodiscard]] outcome run_reproduce(reproduce_options const& o);
 
 }  // namespace rota::cli

@@ -1,8 +1,6 @@
 #include "command.hpp"
 #include "text.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 #include <exception>
 
@@ -24,22 +22,8 @@ int complain(std::string const& what) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace rota::cli;
   try {
-    CLI::App program{"Who does what now: looks at plan files, allocates tasks, and shows why.", "rota"};
-    program.set_version_flag("--version", "rota " ROTA_VERSION);
-    program.require_subcommand(1);
-    chosen_command chosen;
-    add_check(program, chosen);
-    add_allocate(program, chosen);
-    add_simulate(program, chosen);
-    add_reproduce(program, chosen);
-    try {
-      program.parse(argc, argv);
-    } catch (CLI::ParseError const& e) {
-      if (e.get_exit_code() == 0) return program.exit(e);  // --help, --version
-      return complain(std::string(e.what()) + " (see rota --help)");
-    }
+    auto const chosen = rota::cli::parse_command_line(argc, argv);
     auto const done = chosen();
     bool const written = std::fwrite(done.output.data(), 1, done.output.size(), stdout) == done.output.size();
     if (!written || std::fflush(stdout) != 0) return complain("the output cannot be written");

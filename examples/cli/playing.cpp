@@ -4,11 +4,10 @@
 #include "target.hpp"
 #include "text.hpp"
 
-#include <charconv>
-#include <cstdint>
-#include <cstdio>
+#include <rota/adapters/alica/convert.hpp>
+
+#include <algorithm>
 #include <cstdlib>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -23,12 +22,6 @@ sim::plan_sketch sketch_of(target const& t, alica::plan const& p) {
   s.team_size = p.team_size;
   s.hysteresis = p.utility_threshold;
   return s;
-}
-
-std::string printed(char const* format, double x) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, x);
-  return text;
 }
 
 }  // namespace
@@ -57,48 +50,44 @@ void require_playable(sim::playbook const& book, std::size_t robots, std::string
     throw input_error(file, "", counted(robots, "robot") + " cannot play it: no allocation is valid");
 }
 
-std::string check_seed(std::string const& text) {
-  std::uint64_t seed = 0;
-  auto const* const end = text.data() + text.size();
-  auto const [rest, error] = std::from_chars(text.data(), end, seed);
-  bool const octal = text.size() > 1 && text.front() == '0';  // to CLI11
-  return error == std::errc{} && rest == end && !octal
-             ? ""
-             : '"' + text + "\" is not a whole number from 0 to 18446744073709551615";
+sim::figures play_scenario(sim::playbook const& book, sim::play_options const& options) {
+  return sim::play(book, options);
 }
 
-nlohmann::ordered_json as_json(sim::scenario what, bool resolution, sim::figures const& f) {
-  nlohmann::ordered_json led = nlohmann::ordered_json::object();
-  for (std::size_t i = 0; i < f.led.size(); ++i)
-    if (f.led[i] > 0) led[std::to_string(i + 1)] = f.led[i];
-  return {{"name", to_string(what)},
-          {"resolution", resolution ? "on" : "off"},
-          {"conflict_share", f.conflict_share()},
-          {"episodes", f.episodes.count()},
-          {"episode_ms",
-           {{"median", f.episodes.percentile_ms(50)},
-            {"p99", f.episodes.percentile_ms(99)},
-            {"max", f.episodes.longest_ms()}}},
-          {"cycles", f.cycles},
-          {"detections", f.detections},
-          {"reigns", f.reigns},
-          {"right_share", f.reigns == 0 ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(f.right_share())},
-          {"resolved", f.resolved()},
-          {"right", f.right},
-          {"led", led},
-          {"measured_ns", f.measured.ns},
-          {"in_conflict_ns", f.in_conflict.ns},
-          {"deliberations", f.deliberations},
-          {"broadcasts", f.messages},
-          {"perception_digest", std::to_string(f.perception_digest)}};
+evaluation::row const& evaluation::of(sim::scenario s) const {
+  return *std::find_if(rows.begin(), rows.end(), [s](row const& r) { return r.what == s; });
 }
 
-std::string percent(double share) { return printed("%.1f %%", share * 100); }
+evaluation evaluate(sim::playbook const& book, std::uint64_t seed,
+                    std::function<void(std::size_t steps, std::string const& what)> const& next) {
+  constexpr auto steps = 2 + 2 * sim::all_scenarios.size();
+  evaluation e;
+  sim::timing_options timing;
+  timing.seed = seed;
+  next(steps, "timing of detection, messages every 100 ms");
+  e.timing = sim::measure_timing(timing);
+  timing.message_period = milliseconds(200);
+  next(steps, "timing of detection, messages every 200 ms");
+  e.timing_at_200 = sim::measure_timing(timing);
+  for (auto const s : sim::all_scenarios) {
+    auto const run = [&](bool resolution) {
+      next(steps, std::string(to_string(s)) + ", resolution " + (resolution ? "on" : "off"));
+      sim::play_options options;
+      options.what = s;
+      options.team.seed = seed;
+      options.team.agent.resolution = resolution;
+      return play_scenario(book, options);
+    };
+    auto off = run(false);
+    e.rows.push_back({s, std::move(off), run(true)});
+  }
+  return e;
+}
 
-std::string milliseconds_text(double ms) {
-  if (ms < 1000) return printed("%.0f ms", ms);
-  if (ms < 60'000) return printed("%.1f s", ms / 1000);
-  return printed("%.1f min", ms / 60'000);
+std::string plan_names(sim::playbook const& book) {
+  std::string out;
+  for (auto const& p : book.plans) out += (out.empty() ? "" : ", ") + p.name;
+  return out;
 }
 
 std::string leaders(sim::figures const& f) {

@@ -2,9 +2,11 @@
 
 #include <rota/sim/evaluation.hpp>
 
-#include <nlohmann/json.hpp>
-
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace rota::cli {
 
@@ -18,15 +20,29 @@ namespace rota::cli {
 /// Throws `input_error` if so many robots have no valid allocation of any of the plans.
 void require_playable(sim::playbook const& book, std::size_t robots, std::string const& file);
 
-/// For CLI11: what is wrong with the text of a seed, if anything. Its own conversion would wrap -1 and cap 2^64.
-[[nodiscard]] std::string check_seed(std::string const& text);
+/// `sim::play`, which only playing.cpp compiles.
+[[nodiscard]] sim::figures play_scenario(sim::playbook const& book, sim::play_options const& options);
 
-/// One run, in the form that `rota reproduce --json` prints. Undefined shares are null.
-[[nodiscard]] nlohmann::ordered_json as_json(sim::scenario what, bool resolution, sim::figures const& f);
+/// What the evaluation came to: the check figures, and each scenario without and with resolution.
+struct evaluation {
+  struct row {
+    sim::scenario what{};
+    sim::figures off;
+    sim::figures on;
+  };
+  sim::timing_figures timing, timing_at_200;
+  std::vector<row> rows;
 
-/// Numbers for people: "12.3 %", "115 ms", "4.2 s", "5.0 min".
-[[nodiscard]] std::string percent(double share);
-[[nodiscard]] std::string milliseconds_text(double ms);
+  [[nodiscard]] row const& of(sim::scenario s) const;
+};
+
+/// Plays all scenarios. Says before each step how many there are, and what comes next.
+[[nodiscard]] evaluation evaluate(sim::playbook const& book, std::uint64_t seed,
+                                  std::function<void(std::size_t steps, std::string const& what)> const& next);
+
+/// The names of the plans, in one line.
+[[nodiscard]] std::string plan_names(sim::playbook const& book);
+
 /// "5" if robot 5 led always, "5: 9, 4: 1" otherwise, "-" if nobody did.
 [[nodiscard]] std::string leaders(sim::figures const& f);
 

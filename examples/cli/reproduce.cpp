@@ -1,103 +1,37 @@
 #include "command.hpp"
+#include "json.hpp"
 #include "playing.hpp"
 #include "text.hpp"
-
-#include <CLI/CLI.hpp>
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <memory>
+#include <string>
 #include <vector>
 
 namespace rota::cli {
 namespace {
 
-struct options {
-  std::uint64_t seed = 1;
-  std::string plan;
-  bool json = false;
-};
-
-/// What the evaluation came to: the check figures, and each scenario without and with resolution.
-struct evaluation {
-  struct row {
-    sim::scenario what{};
-    sim::figures off;
-    sim::figures on;
-  };
-  sim::timing_figures timing, timing_at_200;
-  std::vector<row> rows;
-
-  [[nodiscard]] row const& of(sim::scenario s) const {
-    return *std::find_if(rows.begin(), rows.end(), [s](row const& r) { return r.what == s; });
-  }
-};
-
 /// Says on a terminal what is going on, on one line that is wiped in the end.
 class progress {
 public:
-  explicit progress(std::size_t steps) : steps_(steps), shown_(isatty(STDERR_FILENO) == 1) {}
+  progress() = default;
   progress(progress const&) = delete;
   progress& operator=(progress const&) = delete;
   ~progress() {
     if (shown_) std::fprintf(stderr, "\r\x1b[K");
   }
-  void step(std::string const& what) {
+  void next(std::size_t steps, std::string const& what) {
     ++step_;
-    if (shown_) std::fprintf(stderr, "\r\x1b[K[%zu/%zu] %s", step_, steps_, what.c_str());
+    if (shown_) std::fprintf(stderr, "\r\x1b[K[%zu/%zu] %s", step_, steps, what.c_str());
   }
 
 private:
-  std::size_t steps_;
   std::size_t step_ = 0;
-  bool shown_;
+  bool shown_ = isatty(STDERR_FILENO) == 1;
 };
-
-evaluation evaluate_all(sim::playbook const& book, std::uint64_t seed) {
-  progress now(2 + 2 * sim::all_scenarios.size());
-  evaluation e;
-  sim::timing_options timing;
-  timing.seed = seed;
-  now.step("timing of detection, messages every 100 ms");
-  e.timing = sim::measure_timing(timing);
-  timing.message_period = milliseconds(200);
-  now.step("timing of detection, messages every 200 ms");
-  e.timing_at_200 = sim::measure_timing(timing);
-  for (auto const s : sim::all_scenarios) {
-    auto const run = [&](bool resolution) {
-      now.step(std::string(to_string(s)) + ", resolution " + (resolution ? "on" : "off"));
-      sim::play_options play;
-      play.what = s;
-      play.team.seed = seed;
-      play.team.agent.resolution = resolution;
-      return sim::play(book, play);
-    };
-    auto off = run(false);
-    e.rows.push_back({s, std::move(off), run(true)});
-  }
-  return e;
-}
-
-std::string as_json(evaluation const& e, options const& o) {
-  nlohmann::ordered_json out;
-  out["timing"] = {{"two_cycles_ms", e.timing.two_cycles_ms},
-                   {"four_cycles_ms", e.timing.four_cycles_ms},
-                   {"two_cycles_ms_at_200", e.timing_at_200.two_cycles_ms},
-                   {"four_cycles_ms_at_200", e.timing_at_200.four_cycles_ms},
-                   {"two_detected_ms", e.timing.two_detected_ms},
-                   {"four_detected_ms", e.timing.four_detected_ms},
-                   {"samples", e.timing.samples}};
-  out["scenarios"] = nlohmann::ordered_json::array();
-  for (auto const& r : e.rows) {
-    out["scenarios"].push_back(cli::as_json(r.what, false, r.off));
-    out["scenarios"].push_back(cli::as_json(r.what, true, r.on));
-  }
-  out["seed"] = o.seed;
-  return out.dump(2) + '\n';
-}
 
 /// Columns as wide as they need to be.
 template <std::size_t N>
@@ -114,7 +48,7 @@ std::string laid_out(std::vector<std::array<std::string, N>> const& rows) {
   return out;
 }
 
-std::string as_text(evaluation const& e, sim::playbook const& book, options const& o) {
+std::string as_text(evaluation const& e, sim::playbook const& book, std::uint64_t seed) {
   using sim::scenario;
   std::vector<std::array<std::string, 12>> table;
   table.push_back({"scenario", "resolution", "in conflict", "episodes", "median", "p99", "longest", "cycles",
@@ -155,9 +89,7 @@ std::string as_text(evaluation const& e, sim::playbook const& book, options cons
       {"\"one third\" incorrect, by bad localisation",
        wrong(hour.on) + "; mislocalised: " + wrong(e.of(scenario::mislocalised).on)}};
 
-  std::string plans;
-  for (auto const& p : book.plans) plans += (plans.empty() ? "" : ", ") + p.name;
-  return "Five robots play " + plans + ", seed " + std::to_string(o.seed) +
+  return "Five robots play " + plan_names(book) + ", seed " + std::to_string(seed) +
          ": deliberation every 30 ms, messages every 100 ms, n = 4 cycles, reigns of 2 s.\n\n" + laid_out(table) +
          "\n  An episode of conflict ends when agreement has lasted 300 ms. Right: reigns that imposed the attacker "
          "whom\n"
@@ -167,25 +99,15 @@ std::string as_text(evaluation const& e, sim::playbook const& book, options cons
          "  fitted to the paper: how often conflicts arise, how long they linger and who is right depend on it.\n";
 }
 
-outcome run_reproduce(options const& o) {
+}  // namespace
+
+outcome run_reproduce(reproduce_options const& o) {
   auto const file = o.plan.empty() ? default_plan() : o.plan;
   auto const book = read_playbook(file);
   require_playable(book, sim::play_options{}.robots, file);
-  auto const e = evaluate_all(book, o.seed);
-  return {o.json ? as_json(e, o) : as_text(e, book, o)};
-}
-
-}  // namespace
-
-void add_reproduce(CLI::App& program, chosen_command& chosen) {
-  auto const o = std::make_shared<options>();
-  auto* const command =
-      program.add_subcommand("reproduce", "The paper's evaluation: every scenario, without and with resolution");
-  command->add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
-  command->add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan")
-      ->check(check_not_empty);
-  command->add_flag("--json", o->json, "print JSON");
-  command->callback([o, &chosen] { chosen = [o] { return run_reproduce(*o); }; });
+  progress shown;
+  auto const e = evaluate(book, o.seed, [&](std::size_t steps, std::string const& what) { shown.next(steps, what); });
+  return {o.json ? as_json(e, o.seed) : as_text(e, book, o.seed)};
 }
 
 }  // namespace rota::cli

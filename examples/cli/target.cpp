@@ -1,9 +1,11 @@
 #include "target.hpp"
 
 #include "command.hpp"
+#include "load.hpp"
 #include "text.hpp"
 
-#include <nlohmann/json.hpp>
+#include <rota/adapters/alica/convert.hpp>
+#include <rota/adapters/alica/text.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -72,7 +74,7 @@ std::unique_ptr<target const> find_target(std::vector<std::string> const& files,
     named.insert(f);
   }
   auto t = std::make_unique<target>();
-  t->model = alica::load(paths);
+  t->model = load_plans(paths);
   auto const& m = t->model;
   require_sound(m, named);
 
@@ -166,71 +168,6 @@ std::optional<double> utilities::operator()(std::string const& agent, vocabulary
   auto const column = columns_.find({p, t});
   if (row == rows_.end() || column == columns_.end()) return std::nullopt;
   return table_.cells[row->second][column->second];
-}
-
-named_allocation read_allocation(std::string const& file) {
-  auto const text = read_text(file);
-  alica::load_options const limits;
-  alica::detail::json_guard guard{text, limits};
-  if (!nlohmann::json::sax_parse(text, &guard)) throw input_error(file, guard.place, guard.reason);
-  auto const tree = nlohmann::json::parse(text, nullptr, false);
-
-  auto const need = [&](bool holds, std::string const& place, std::string const& reason) {
-    if (!holds) throw input_error(file, place, reason);
-  };
-  need(tree.is_object(), "/", "not an allocation: a JSON object is expected");
-  for (auto const& [key, value] : tree.items()) {
-    using type = nlohmann::json::value_t;
-    // What the program prints beside the allocation itself is not used, but it must be what it claims to be.
-    static std::map<std::string, type, std::less<>> const keys = {
-        {"plan", type::discarded},   {"utility", type::number_float}, {"optimal", type::boolean},
-        {"assignment", type::array}, {"idle", type::array},           {"event", type::object},
-        {"decision", type::object},  {"reason", type::string}};
-    auto const at = keys.find(key);
-    need(at != keys.end(), '/' + key, "an allocation has no such key");
-    bool const fits = at->second == type::discarded || at->second == value.type() ||
-                      (at->second == type::number_float && value.is_number());
-    need(fits, '/' + key,
-         at->second == type::number_float ? "not a number"
-         : at->second == type::boolean    ? "neither true nor false"
-         : at->second == type::array      ? "not a list"
-         : at->second == type::string     ? "not a text"
-                                          : "not an object");
-  }
-  need(tree.contains("plan"), "/", "the key \"plan\" is missing");
-  named_allocation a;
-  auto const& plan = tree["plan"];
-  need(plan.is_null() || plan.is_string(), "/plan", "neither a name nor null");
-  if (plan.is_string()) a.plan = plan.get<std::string>();
-  need(!a.plan || !a.plan->empty(), "/plan", "a plan without a name");
-  need(tree.contains("assignment") || !a.plan, "/", "the key \"assignment\" is missing");
-  if (!tree.contains("assignment")) return a;
-  auto const& all = tree["assignment"];
-  need(a.plan || all.empty(), "/assignment", "tasks without a plan");
-  std::set<std::string> agents;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    auto const place = "/assignment/" + std::to_string(i);
-    need(all[i].is_object(), place, "not an object");
-    for (auto const& [key, value] : all[i].items())
-      need(key == "agent" || key == "task", place + '/' + key, "only \"agent\" and \"task\" belong here");
-    for (auto const* key : {"agent", "task"}) {
-      need(all[i].contains(key), place, "the key \"" + std::string(key) + "\" is missing");
-      need(all[i][key].is_string() && !all[i][key].get_ref<std::string const&>().empty(), place + '/' + key,
-           "not a name");
-    }
-    a.assignment.push_back({all[i]["agent"].get<std::string>(), all[i]["task"].get<std::string>(), place});
-    need(agents.insert(a.assignment.back().agent).second, place,
-         "the agent " + in_quotes(a.assignment.back().agent) + " has two tasks");
-  }
-  if (!tree.contains("idle")) return a;
-  auto const& idle = tree["idle"];
-  for (std::size_t i = 0; i < idle.size(); ++i) {
-    auto const place = "/idle/" + std::to_string(i);
-    need(idle[i].is_string() && !idle[i].get_ref<std::string const&>().empty(), place, "not a name");
-    auto const name = idle[i].get<std::string>();
-    need(agents.insert(name).second, place, "the agent " + in_quotes(name) + " stands twice");
-  }
-  return a;
 }
 
 }  // namespace rota::cli

@@ -2,7 +2,7 @@
 
 #include "table.hpp"
 
-#include <rota/adapters/alica.hpp>
+#include <rota/adapters/alica/model.hpp>
 #include <rota/model/allocation.hpp>
 
 #include <functional>
@@ -70,19 +70,5 @@ private:
   std::map<std::string, std::size_t> rows_;
   std::map<std::pair<vocabulary::plan, vocabulary::task>, std::size_t> columns_;
 };
-
-/// An allocation as a file holds it: names only.
-struct named_allocation {
-  std::optional<std::string> plan;
-  struct pair {
-    std::string agent;
-    std::string task;
-    std::string place;
-  };
-  std::vector<pair> assignment;
-};
-
-/// Reads an allocation in the form that `rota allocate --json` prints. Throws `input_error` for anything else.
-[[nodiscard]] named_allocation read_allocation(std::string const& file);
 
 }  // namespace rota::cli

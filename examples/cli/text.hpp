@@ -1,9 +1,7 @@
 #pragma once
 
-#include <rota/adapters/alica/text.hpp>
 #include <rota/model/cardinality.hpp>
 
-#include <charconv>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -13,77 +11,27 @@ namespace rota::cli {
 
 /// The text with all that could draw on the terminal or break or reorder a line made visible: control characters of
 /// ASCII (\x1b) and Unicode (\u009b), directions of writing (\u202e), line separators, bytes that are no UTF-8 (\xff).
-[[nodiscard]] inline std::string printable(std::string_view s) {
-  constexpr char digits[] = "0123456789abcdef";
-  std::string out;
-  auto const escape = [&](char kind, unsigned value, int from) {
-    out += '\\';
-    out += kind;
-    for (int shift = from; shift >= 0; shift -= 4) out += digits[value >> static_cast<unsigned>(shift) & 15U];
-  };
-  auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
-  while (!s.empty()) {
-    auto const sound = alica::detail::first_bad_byte(s).value_or(s.size());
-    for (std::size_t i = 0; i < sound; ++i) {
-      unsigned const b = byte(i);
-      // Within sound UTF-8 the characters meant have two or three bytes, which these bounds keep inside the text.
-      unsigned const two = b == 0xC2 || b == 0xD8 ? (b & 31U) << 6U | (byte(i + 1) & 63U) : 0;
-      unsigned const three = b == 0xE2 ? 0x2000U | (byte(i + 1) & 63U) << 6U | (byte(i + 2) & 63U) : 0;
-      if (b < 0x20 || b == 0x7F) {
-        escape('x', b, 4);
-      } else if ((two >= 0x80 && two <= 0x9F) || two == 0x61C) {
-        escape('u', two, 12);
-        i += 1;
-      } else if (three == 0x200E || three == 0x200F || (three >= 0x2028 && three <= 0x202E) ||
-                 (three >= 0x2066 && three <= 0x2069)) {
-        escape('u', three, 12);
-        i += 2;
-      } else {
-        out += s[i];
-      }
-    }
-    if (sound == s.size()) break;
-    escape('x', byte(sound), 4);
-    s.remove_prefix(sound + 1);
-  }
-  return out;
-}
+[[nodiscard]] std::string printable(std::string_view s);
 
 /// The names in one line; of very many only the first.
-[[nodiscard]] inline std::string joined(std::vector<std::string> const& names) {
-  constexpr std::size_t limit = 400;
-  std::string out;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) out += ", ";
-    if (out.size() + names[i].size() > limit && i > 0) return out + "… (" + std::to_string(names.size()) + " in all)";
-    out += names[i];
-  }
-  return out;
-}
+[[nodiscard]] std::string joined(std::vector<std::string> const& names);
 
 /// The shortest decimal that reads back as the same number.
-[[nodiscard]] inline std::string number(double x) {
-  char text[32];
-  auto const end = std::to_chars(text, text + sizeof text, x).ptr;
-  return {text, end};
-}
+[[nodiscard]] std::string number(double x);
+
+/// "12.3 %".
+[[nodiscard]] std::string percent(double share);
+
+/// "115 ms", "4.2 s", "5.0 min".
+[[nodiscard]] std::string milliseconds_text(double ms);
 
 /// "MIN..MAX"; no upper bound reads "*".
-[[nodiscard]] inline std::string interval(cardinality c) {
-  return std::to_string(c.min()) + ".." + (c.is_bounded() ? std::to_string(c.max()) : "*");
-}
+[[nodiscard]] std::string interval(cardinality c);
 
 /// Spaces behind the text, to a column. Counts code points.
-[[nodiscard]] inline std::string padded(std::string s, std::size_t width) {
-  std::size_t shown = 0;
-  for (char const c : s) shown += (static_cast<unsigned char>(c) & 0xC0U) != 0x80;
-  if (shown < width) s.append(width - shown, ' ');
-  return s;
-}
+[[nodiscard]] std::string padded(std::string s, std::size_t width);
 
 /// "1 agent", "2 agents".
-[[nodiscard]] inline std::string counted(std::size_t n, std::string_view what) {
-  return std::to_string(n) + ' ' + std::string(what) + (n == 1 ? "" : "s");
-}
+[[nodiscard]] std::string counted(std::size_t n, std::string_view what);
 
 }  // namespace rota::cli

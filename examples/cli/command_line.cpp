@@ -1,0 +1,153 @@
+#include "command.hpp"
+
+#include <rota/sim/scenario.hpp>
+#include <rota/sim/world.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <memory>
+#include <sstream>
+#include <system_error>
+#include <type_traits>
+
+namespace rota::cli {
+namespace {
+
+/// An option whose value is empty is a mistake of the calling script, not one that was left out.
+std::string check_not_empty(std::string const& text) { return text.empty() ? "an empty value" : ""; }
+
+/// Whether the text is a plain decimal number within these bounds. CLI11's own conversion takes "0x1" and "nan", wraps
+/// -1 and caps 2^64.
+template <class Number>
+bool is_within(std::string const& text, Number low, Number high) {
+  Number x{};
+  auto const* const end = text.data() + text.size();
+  auto const [rest, error] = std::from_chars(text.data(), end, x);
+  bool const octal = std::is_integral_v<Number> && text.size() > 1 && text.front() == '0';  // to CLI11
+  return error == std::errc{} && rest == end && x >= low && x <= high && !octal;
+}
+
+/// A check of CLI11 for numbers of one kind, which the words describe.
+template <class Number>
+auto within(Number low, Number high, std::string const& what) {
+  return [=](std::string const& text) {
+    return is_within(text, low, high) ? std::string{} : '"' + text + "\" is not " + what;
+  };
+}
+
+std::string check_seed(std::string const& text) {
+  return within(std::uint64_t{0}, UINT64_MAX, "a whole number from 0 to 18446744073709551615")(text);
+}
+
+/// Adds a subcommand whose callback chooses `run` with the options that were read by then.
+template <class Options>
+CLI::App& add(CLI::App& program, command& chosen, std::shared_ptr<Options> const& o, outcome (*run)(Options const&),
+              std::string const& name, std::string const& description) {
+  CLI::App& sub = *program.add_subcommand(name, description);
+  sub.callback([=, &chosen] { chosen = [=] { return run(*o); }; });
+  return sub;
+}
+
+void add_check(CLI::App& program, command& chosen) {
+  auto const o = std::make_shared<check_options>();
+  CLI::App& sub = add(program, chosen, o, run_check, "check", "Says what plan files hold and what is wrong with them");
+  sub.add_option("PATH", o->paths, "plan files, or folders with everything below them")
+      ->required()
+      ->check(check_not_empty);
+  sub.add_flag("--json", o->json, "print JSON");
+  sub.footer("Exit status: 0 nothing is wrong, 1 errors found in files, 2 misuse, no plan file.");
+}
+
+void add_allocate(CLI::App& program, command& chosen) {
+  auto const o = std::make_shared<allocate_options>();
+  CLI::App& sub =
+      add(program, chosen, o, run_allocate, "allocate", "Finds the best allocation of a plan, and says why");
+  sub.add_option("--plan", o->plans, "plan files or folders; what they need is found beside them")
+      ->required()
+      ->check(check_not_empty);
+  sub.add_option("--plan-type", o->plan_type, "name or id of the plan type whose best plan is wanted")
+      ->check(check_not_empty);
+  sub.add_option("--utilities", o->utilities,
+                 "CSV: header agent,TASK,... (PLAN/TASK with a plan type), one row per agent, empty = forbidden")
+      ->required()
+      ->check(check_not_empty);
+  sub.add_flag("--no-idle", o->no_idle, "every agent must have a task");
+  sub.add_option("--current", o->current, "JSON, as --json prints it: the allocation to compare with")
+      ->check(check_not_empty);
+  sub.add_flag("--json", o->json, "print JSON");
+  sub.footer("Utilities count in steps of 2^-20, each cell rounded to the nearest (0.0000001 counts 0), so that\n"
+             "equal tables give equal answers everywhere. They add up over agents; an idle agent counts 0.\n"
+             "The event leads from --current to the best allocation; the decision says whether a running team\n"
+             "would change at all, given the hysteresis of the plan and that equals change nothing.\n"
+             "Exit status: 0 found, 1 no valid allocation, 2 misuse or a wrong input file.");
+}
+
+void add_simulate(CLI::App& program, command& chosen) {
+  auto const o = std::make_shared<simulate_options>(default_simulation());
+  CLI::App& sub = add(program, chosen, o, run_simulate, "simulate", "Plays one scenario and measures its conflicts");
+  std::string names;
+  for (auto const s : sim::all_scenarios) names += (names.empty() ? "" : ", ") + std::string(to_string(s));
+  sub.add_option("--scenario", o->scenario, names)->required()->check([names](std::string const& name) {
+    return sim::parse_scenario(name) ? std::string{} : name + " is no scenario; there are " + names;
+  });
+  sub.add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan")
+      ->check(check_not_empty);
+  sub.add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
+  sub.add_option("--minutes", o->minutes, "simulated time; by default 60 for hour, otherwise 5")
+      ->check(within(0.01, 1440.0, "a number of minutes from 0.01 to 1440"));
+  sub.add_option("--robots", o->robots, "size of the team, 2 to 11")
+      ->check(within(std::size_t{2}, std::size_t{sim::max_robots},
+                     "a whole number from 2 to " + std::to_string(sim::max_robots)))
+      ->capture_default_str();
+  sub.add_option("--loss", o->loss, "probability that a message is lost")
+      ->check(within(0.0, 1.0, "a probability from 0 to 1"))
+      ->capture_default_str();
+  sub.add_option("--latency", o->latency, "least delay of a message in ms")
+      ->check(within(0.0, 10'000.0, "a delay from 0 to 10000 ms"))
+      ->capture_default_str();
+  sub.add_option("--cycles", o->cycles, "n: subsequent cycles that make a detection")
+      ->check(within(1, 1'000'000, "a whole number from 1 to 1000000"))
+      ->capture_default_str();
+  sub.add_option("--reign", o->reign, "how long a leader decides, in seconds")
+      ->check(within(0.01, 3600.0, "a time from 0.01 to 3600 seconds"))
+      ->capture_default_str();
+  sub.add_option("--resolution", o->resolution, "on, or off: detect only")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str();
+  sub.add_flag("--json", o->json, "print JSON");
+}
+
+void add_reproduce(CLI::App& program, command& chosen) {
+  auto const o = std::make_shared<reproduce_options>();
+  CLI::App& sub = add(program, chosen, o, run_reproduce, "reproduce",
+                      "The paper's evaluation: every scenario, without and with resolution");
+  sub.add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
+  sub.add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan")
+      ->check(check_not_empty);
+  sub.add_flag("--json", o->json, "print JSON");
+}
+
+}  // namespace
+
+command parse_command_line(int argc, char** argv) {
+  CLI::App program{"Who does what now: looks at plan files, allocates tasks, and shows why.", "rota"};
+  program.set_version_flag("--version", "rota " ROTA_VERSION);
+  program.require_subcommand(1);
+  command chosen;
+  add_check(program, chosen);
+  add_allocate(program, chosen);
+  add_simulate(program, chosen);
+  add_reproduce(program, chosen);
+  try {
+    program.parse(argc, argv);
+  } catch (CLI::ParseError const& e) {
+    if (e.get_exit_code() != 0) throw input_error(std::string(e.what()) + " (see rota --help)");
+    std::ostringstream asked;  // by --help or --version
+    program.exit(e, asked, asked);
+    return [text = asked.str()] { return outcome{text}; };
+  }
+  return chosen;
+}
+
+}  // namespace rota::cli

@@ -1,0 +1,308 @@
+#include "json.hpp"
+
+#include "command.hpp"
+#include "load.hpp"
+#include "playing.hpp"
+#include "table.hpp"
+
+#include <rota/adapters/alica/text.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace rota::cli {
+namespace {
+
+using alica::severity;
+using alica::detail::in_quotes;
+using nlohmann::ordered_json;
+
+// Objects are filled member by member: nested braces would cost the compiler twenty times as much.
+
+template <class T>
+ordered_json or_null(std::optional<T> const& x) {
+  return x ? ordered_json(*x) : ordered_json(nullptr);
+}
+
+/// "none" is null.
+template <class Enum>
+ordered_json word(Enum e) {
+  return e == Enum::none ? ordered_json(nullptr) : ordered_json(to_string(e));
+}
+
+/// A list with one entry for each of these.
+template <class Range, class Convert>
+ordered_json list_of(Range const& all, Convert const& convert) {
+  auto out = ordered_json::array();
+  for (auto const& x : all) out.push_back(convert(x));
+  return out;
+}
+
+ordered_json json_of(cardinality c) {
+  ordered_json out;
+  out["min"] = c.min();
+  out["max"] = nullptr;
+  if (c.is_bounded()) out["max"] = c.max();
+  return out;
+}
+
+ordered_json json_of(alica::document const& d) {
+  ordered_json out;
+  out["file"] = d.file;
+  out["status"] = to_string(d.status);
+  out["kind"] = word(d.kind);
+  out["format"] = word(d.format);
+  out["id"] = or_null(d.id);
+  out["name"] = d.name;
+  return out;
+}
+
+ordered_json json_of(alica::plan const& p) {
+  ordered_json out;
+  out["plan"] = p.name;
+  out["id"] = p.id;
+  out["file"] = p.file;
+  out["tasks"] = list_of(p.entry_points, [&](alica::entry_point const& e) {
+    ordered_json task;
+    task["task"] = label(p, e);
+    task["id"] = e.task;
+    task["entry_point"] = e.id;
+    task["cardinality"] = json_of(e.bounds);
+    task["state"] = e.state_name;
+    return task;
+  });
+  out["team_size"] = json_of(p.team_size);
+  out["utility_threshold"] = p.utility_threshold;
+  out["precondition"] = or_null(p.precondition);
+  return out;
+}
+
+ordered_json json_of(alica::plan_type const& t, alica::model const& m) {
+  ordered_json out;
+  out["plan_type"] = t.name;
+  out["id"] = t.id;
+  out["file"] = t.file;
+  out["plans"] = list_of(t.plans, [&](alica::plan_choice const& c) {
+    ordered_json choice;
+    choice["plan"] = choice_name(m, t, c);
+    choice["id"] = c.plan;
+    choice["activated"] = c.activated;
+    return choice;
+  });
+  return out;
+}
+
+ordered_json json_of(alica::task const& t) {
+  ordered_json out;
+  out["task"] = t.name;
+  out["id"] = t.id;
+  out["file"] = t.file;
+  return out;
+}
+
+ordered_json json_of(alica::role const& r, alica::model const& m) {
+  ordered_json out;
+  out["role"] = r.name;
+  out["id"] = r.id;
+  out["file"] = r.file;
+  out["default_priority"] = r.default_priority;
+  out["priorities"] = list_of(r.priorities, [&](alica::task_priority const& p) {
+    auto const* t = m.find_task(r.root, p.task);
+    ordered_json priority;
+    priority["task"] = t != nullptr ? t->name : std::string();
+    priority["id"] = p.task;
+    priority["priority"] = p.priority;
+    return priority;
+  });
+  return out;
+}
+
+ordered_json json_of(alica::diagnostic const& d) {
+  ordered_json out;
+  out["severity"] = to_string(d.severity);
+  out["file"] = d.file;
+  out["place"] = d.place;
+  out["id"] = or_null(d.id);
+  out["reason"] = d.reason;
+  return out;
+}
+
+ordered_json json_of(named_change const& c) {
+  ordered_json out;
+  out["agent"] = c.agent;
+  if (c.plan) out["plan"] = *c.plan;
+  out["task"] = c.task;
+  return out;
+}
+
+ordered_json json_of(sim::length_statistics const& s) {
+  ordered_json out;
+  out["median"] = s.percentile_ms(50);
+  out["p99"] = s.percentile_ms(99);
+  out["max"] = s.longest_ms();
+  return out;
+}
+
+ordered_json json_of(sim::scenario what, bool resolution, sim::figures const& f) {
+  ordered_json out;
+  out["name"] = to_string(what);
+  out["resolution"] = resolution ? "on" : "off";
+  out["conflict_share"] = f.conflict_share();
+  out["episodes"] = f.episodes.count();
+  out["episode_ms"] = json_of(f.episodes);
+  out["cycles"] = f.cycles;
+  out["detections"] = f.detections;
+  out["reigns"] = f.reigns;
+  out["right_share"] = nullptr;
+  if (f.reigns > 0) out["right_share"] = f.right_share();
+  out["resolved"] = f.resolved();
+  out["right"] = f.right;
+  auto led = ordered_json::object();
+  for (std::size_t i = 0; i < f.led.size(); ++i)
+    if (f.led[i] > 0) led[std::to_string(i + 1)] = f.led[i];
+  out["led"] = std::move(led);
+  out["measured_ns"] = f.measured.ns;
+  out["in_conflict_ns"] = f.in_conflict.ns;
+  out["deliberations"] = f.deliberations;
+  out["broadcasts"] = f.messages;
+  out["perception_digest"] = std::to_string(f.perception_digest);
+  return out;
+}
+
+}  // namespace
+
+std::string as_json(alica::model const& m) {
+  auto const plain = [](auto const& x) { return json_of(x); };
+  auto const within = [&](auto const& x) { return json_of(x, m); };
+  ordered_json out;
+  out["files"] = list_of(m.documents, plain);
+  out["plans"] = list_of(m.plans, plain);
+  out["plan_types"] = list_of(m.plan_types, within);
+  out["tasks"] = list_of(m.tasks, plain);
+  out["roles"] = list_of(m.roles, within);
+  out["diagnostics"] = list_of(m.diagnostics, plain);
+  out["errors"] = m.count(severity::error);
+  out["warnings"] = m.count(severity::warning);
+  out["ignored"] = m.count(severity::ignored);
+  // File names need not be UTF-8; JSON does.
+  return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
+}
+
+std::string as_json(named_answer const& a) {
+  auto const change = [](named_change const& c) { return json_of(c); };
+  ordered_json out;
+  out["plan"] = a.plan;
+  out["utility"] = a.utility;
+  out["optimal"] = a.optimal;
+  out["assignment"] = list_of(
+      a.assignment, [](auto const& pair) { return json_of(named_change{pair.first, std::nullopt, pair.second}); });
+  out["idle"] = a.idle;
+  out["event"]["added"] = list_of(a.added, change);
+  out["event"]["removed"] = list_of(a.removed, change);
+  if (a.decision) {
+    out["decision"]["keep"] = a.decision->keep;
+    out["decision"]["reason"] = a.decision->reason;
+  }
+  return out.dump() + '\n';
+}
+
+std::string refusal_as_json(std::string const& reason) {
+  ordered_json out;
+  out["plan"] = nullptr;
+  out["reason"] = reason;
+  return out.dump() + '\n';
+}
+
+named_allocation read_allocation(std::string const& file) {
+  auto const tree = parse_json(read_text(file), file);
+
+  auto const need = [&](bool holds, std::string const& place, std::string const& reason) {
+    if (!holds) throw input_error(file, place, reason);
+  };
+  need(tree.is_object(), "/", "not an allocation: a JSON object is expected");
+  for (auto const& [key, value] : tree.items()) {
+    using type = nlohmann::json::value_t;
+    // What the program prints beside the allocation itself is not used, but it must be what it claims to be.
+    static std::map<std::string, type, std::less<>> const keys = {
+        {"plan", type::discarded},   {"utility", type::number_float}, {"optimal", type::boolean},
+        {"assignment", type::array}, {"idle", type::array},           {"event", type::object},
+        {"decision", type::object},  {"reason", type::string}};
+    auto const at = keys.find(key);
+    need(at != keys.end(), '/' + key, "an allocation has no such key");
+    bool const fits = at->second == type::discarded || at->second == value.type() ||
+                      (at->second == type::number_float && value.is_number());
+    need(fits, '/' + key,
+         at->second == type::number_float ? "not a number"
+         : at->second == type::boolean    ? "neither true nor false"
+         : at->second == type::array      ? "not a list"
+         : at->second == type::string     ? "not a text"
+                                          : "not an object");
+  }
+  need(tree.contains("plan"), "/", "the key \"plan\" is missing");
+  named_allocation a;
+  auto const& plan = tree["plan"];
+  need(plan.is_null() || plan.is_string(), "/plan", "neither a name nor null");
+  if (plan.is_string()) a.plan = plan.get<std::string>();
+  need(!a.plan || !a.plan->empty(), "/plan", "a plan without a name");
+  need(tree.contains("assignment") || !a.plan, "/", "the key \"assignment\" is missing");
+  if (!tree.contains("assignment")) return a;
+  auto const& all = tree["assignment"];
+  need(a.plan || all.empty(), "/assignment", "tasks without a plan");
+  std::set<std::string> agents;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    auto const place = "/assignment/" + std::to_string(i);
+    need(all[i].is_object(), place, "not an object");
+    for (auto const& [key, value] : all[i].items())
+      need(key == "agent" || key == "task", place + '/' + key, "only \"agent\" and \"task\" belong here");
+    for (auto const* key : {"agent", "task"}) {
+      need(all[i].contains(key), place, "the key \"" + std::string(key) + "\" is missing");
+      need(all[i][key].is_string() && !all[i][key].get_ref<std::string const&>().empty(), place + '/' + key,
+           "not a name");
+    }
+    a.assignment.push_back({all[i]["agent"].get<std::string>(), all[i]["task"].get<std::string>(), place});
+    need(agents.insert(a.assignment.back().agent).second, place,
+         "the agent " + in_quotes(a.assignment.back().agent) + " has two tasks");
+  }
+  if (!tree.contains("idle")) return a;
+  auto const& idle = tree["idle"];
+  for (std::size_t i = 0; i < idle.size(); ++i) {
+    auto const place = "/idle/" + std::to_string(i);
+    need(idle[i].is_string() && !idle[i].get_ref<std::string const&>().empty(), place, "not a name");
+    auto const name = idle[i].get<std::string>();
+    need(agents.insert(name).second, place, "the agent " + in_quotes(name) + " stands twice");
+  }
+  return a;
+}
+
+std::string as_json(sim::scenario what, bool resolution, std::uint64_t seed, sim::figures const& f) {
+  auto out = json_of(what, resolution, f);
+  out["seed"] = seed;
+  return out.dump(2) + '\n';
+}
+
+std::string as_json(evaluation const& e, std::uint64_t seed) {
+  ordered_json timing;
+  timing["two_cycles_ms"] = e.timing.two_cycles_ms;
+  timing["four_cycles_ms"] = e.timing.four_cycles_ms;
+  timing["two_cycles_ms_at_200"] = e.timing_at_200.two_cycles_ms;
+  timing["four_cycles_ms_at_200"] = e.timing_at_200.four_cycles_ms;
+  timing["two_detected_ms"] = e.timing.two_detected_ms;
+  timing["four_detected_ms"] = e.timing.four_detected_ms;
+  timing["samples"] = e.timing.samples;
+  auto scenarios = ordered_json::array();
+  for (auto const& r : e.rows) {
+    scenarios.push_back(json_of(r.what, false, r.off));
+    scenarios.push_back(json_of(r.what, true, r.on));
+  }
+  ordered_json out;
+  out["timing"] = std::move(timing);
+  out["scenarios"] = std::move(scenarios);
+  out["seed"] = seed;
+  return out.dump(2) + '\n';
+}
+
+}  // namespace rota::cli

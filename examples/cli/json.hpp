@@ -1,0 +1,69 @@
+#pragma once
+
+#include <rota/adapters/alica/model.hpp>
+#include <rota/sim/fwd.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rota::cli {
+
+struct evaluation;
+
+// All JSON of the program is written, and read, by one file: the library is slow to compile.
+
+/// What plan files hold and what is wrong with them.
+[[nodiscard]] std::string as_json(alica::model const& m);
+
+struct named_change {
+  std::string agent;
+  std::optional<std::string> plan;  ///< where there are several
+  std::string task;
+};
+
+/// What a running team would do: it does not always change to the best.
+struct named_decision {
+  bool keep = false;
+  std::string reason;
+};
+
+/// What `rota allocate` found, in names only.
+struct named_answer {
+  std::string plan;
+  double utility = 0;
+  bool optimal = false;
+  std::vector<std::pair<std::string, std::string>> assignment;  ///< agent, task
+  std::vector<std::string> idle;
+  std::vector<named_change> added;
+  std::vector<named_change> removed;
+  std::optional<named_decision> decision;
+};
+[[nodiscard]] std::string as_json(named_answer const& a);
+
+/// Instead of an answer: there is no valid allocation.
+[[nodiscard]] std::string refusal_as_json(std::string const& reason);
+
+/// An allocation as a file holds it: names only.
+struct named_allocation {
+  std::optional<std::string> plan;
+  struct pair {
+    std::string agent;
+    std::string task;
+    std::string place;
+  };
+  std::vector<pair> assignment;
+};
+
+/// Reads an allocation in the form that `as_json(named_answer const&)` writes. Throws `input_error` for anything else.
+[[nodiscard]] named_allocation read_allocation(std::string const& file);
+
+/// One run. Undefined shares are null.
+[[nodiscard]] std::string as_json(sim::scenario what, bool resolution, std::uint64_t seed, sim::figures const& f);
+
+/// All runs, each in the form of one run.
+[[nodiscard]] std::string as_json(evaluation const& e, std::uint64_t seed);
+
+}  // namespace rota::cli
