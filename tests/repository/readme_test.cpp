@@ -26,6 +26,20 @@ TEST(readme, its_first_example_is_the_compiled_one) {
   EXPECT_EQ(readme.substr(begin + fence.size(), end - begin - fence.size()), read("examples/first.cpp"));
 }
 
+/// The code in docs/algebra.md is out of an example that the build compiles, and which is all static_assert.
+TEST(readme, the_code_of_the_algebra_page_is_compiled) {
+  auto const page = read("docs/algebra.md");
+  auto const compiled = read("examples/algebra.cpp");
+  std::string const fence = "```cpp\n";
+  int blocks = 0;
+  for (auto begin = page.find(fence); begin != std::string::npos; begin = page.find(fence, begin + 1), ++blocks) {
+    auto const code = begin + fence.size();
+    auto const block = page.substr(code, page.find("```", code) - code);
+    EXPECT_NE(compiled.find(block), std::string::npos) << block;
+  }
+  EXPECT_GE(blocks, 7);
+}
+
 /// Every relative link of README and docs leads to a file.
 TEST(readme, its_links_lead_somewhere) {
   namespace fs = std::filesystem;
