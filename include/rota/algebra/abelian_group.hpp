@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/algebra/commutative_magma.hpp>
 #include <rota/algebra/group.hpp>
 
 namespace rota {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/algebra/invertible_magma.hpp>
 #include <rota/algebra/monoid.hpp>
 
 namespace rota {

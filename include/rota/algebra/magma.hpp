@@ -13,8 +13,4 @@ concept magma = std::regular<T> && requires(T const& x, T const& y) {
   { structure<T>::combine(x, y) } -> std::same_as<T>;
 };
 
-/// A magma that claims x·y = y·x.
-template <class T>
-concept commutative_magma = magma<T> && detail::claims_commutative<T>;
-
 }  // namespace rota
