@@ -3,9 +3,11 @@
 /// The umbrella: everything from core/ to team/. No Eigen, no rapidcheck, no JSON, no networking, no Boost.
 
 #include <rota/algebra/action.hpp>
+#include <rota/algebra/allocation_event.hpp>
 #include <rota/algebra/associativity.hpp>
 #include <rota/algebra/atom_set.hpp>
 #include <rota/algebra/delta.hpp>
+#include <rota/algebra/dense_event.hpp>
 #include <rota/algebra/event.hpp>
 #include <rota/algebra/runs.hpp>
 #include <rota/algebra/structures.hpp>

@@ -47,6 +47,7 @@ template <ordered_atom Atom>
 class event {
 public:
   using atom_type = Atom;
+  using set_type = atom_set<Atom>;
   using entry = signed_atom<Atom>;
 
   /// The identity (∅, ∅).

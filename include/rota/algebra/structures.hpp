@@ -3,6 +3,7 @@
 /// Which structure each type of the algebra has, and claims.
 
 #include <rota/algebra/abelian_group.hpp>
+#include <rota/algebra/dense_event.hpp>
 #include <rota/algebra/fingerprint.hpp>
 #include <rota/algebra/group_action.hpp>
 #include <rota/algebra/groupoid.hpp>
@@ -16,6 +17,20 @@ struct structure<event<Atom>> {
   static constexpr event<Atom> combine(event<Atom> const& e, event<Atom> const& f) { return compose(e, f); }
   static constexpr event<Atom> identity() { return {}; }
   static constexpr event<Atom> inverse(event<Atom> const& e) { return rota::inverse(e); }
+  static constexpr bool commutative = true;
+};
+
+/// As `event`. The identity has no name where only a value knows the universe.
+template <atom_universe U>
+struct structure<dense_event<U>> {
+  using type = dense_event<U>;
+  static constexpr type combine(type const& e, type const& f) { return compose(e, f); }
+  static constexpr type identity()
+    requires fixed_universe<U>
+  {
+    return {};
+  }
+  static constexpr type inverse(type const& e) { return rota::inverse(e); }
   static constexpr bool commutative = true;
 };
 
