@@ -34,7 +34,7 @@ struct outcome {
 /// The subcommand that the command line chose, with its options.
 using command = std::function<outcome()>;
 
-/// Reads the command line. Where it asks for help or the version, the command yields that. Throws `input_error`.
+/// Reads the command line. Where it asks for help or the version, prints that and ends. Throws `input_error`.
 [[nodiscard]] command parse_command_line(int argc, char** argv);
 
 // The subcommands, one file each. They know nothing of the command line.

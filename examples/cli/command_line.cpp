@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 
 #include <charconv>
+#include <cstdlib>
 #include <memory>
-#include <sstream>
 #include <system_error>
 #include <type_traits>
 
@@ -142,10 +142,8 @@ command parse_command_line(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& e) {
-    if (e.get_exit_code() != 0) throw input_error(std::string(e.what()) + " (see rota --help)");
-    std::ostringstream asked;  // by --help or --version
-    program.exit(e, asked, asked);
-    return [text = asked.str()] { return outcome{text}; };
+    if (e.get_exit_code() == 0) std::exit(program.exit(e));  // prints what --help or --version ask for
+    throw input_error(std::string(e.what()) + " (see rota --help)");
   }
   return chosen;
 }
