@@ -55,6 +55,19 @@ TEST(complexity, compose_difference_sum_and_apply_are_linear) {
   }
 }
 
+/// One change to a large event: a search, and no more comparisons however large it is.
+TEST(complexity, composing_with_a_small_event_searches) {
+  auto const one = event::addition(counted{12345});
+  std::uint64_t last = 0;
+  for (int n : {1000, 10000, 100000}) {
+    auto const e = *event::make(every(2, n), atoms{});
+    last = cost([&] { (void)compose(e, one); });
+    EXPECT_LE(last, 40u);
+    EXPECT_LE(cost([&] { (void)compose(one, e); }), 40u);
+  }
+  EXPECT_GT(last, 0u);
+}
+
 /// A control: the naive composition over sets by look-up would not pass the same bound at any size worth measuring.
 TEST(complexity, the_bound_rejects_a_quadratic_composition) {
   int const n = 100;

@@ -193,6 +193,30 @@ TEST(event, compose_is_definition_4_on_every_pair_over_three_atoms) {
     for (auto const& f : all) EXPECT_EQ(print(compose(e, f)), definition_4(print(e), print(f)));
 }
 
+RC_GTEST_PROP(event, compose_is_definition_4_at_any_ratio_of_sizes, ()) {
+  auto const n = static_cast<std::size_t>(*integer(1, 200).as("atoms"));
+  auto const e = *event_over(n).as("e");
+  std::vector<int> few(n);
+  for (int const i : *integers(static_cast<std::size_t>(*integer(0, 6).as("how many")), 0, int(n) - 1).as("which"))
+    few[static_cast<std::size_t>(i)] = i % 2 == 0 ? 1 : -1;
+  auto const f = event_of(few);
+  RC_CLASSIFY(e.size() > 16 * f.size(), "lopsided");
+  auto const r = compose(e, f);
+  RC_ASSERT(events::valid(r));
+  RC_ASSERT(print(r) == definition_4(print(e), print(f)));
+  RC_ASSERT(compose(f, e) == r);
+}
+
+TEST(event, up_to_eight_entries_compose_without_the_heap) {
+  auto const e = event_of({1, -1, 1, -1});
+  auto const f = event_of({0, 0, 0, 1, 1, 1, -1});
+  auto const before = rota_test::allocation_count();
+  auto const r = compose(e, f);
+  auto const allocations = rota_test::allocation_count() - before;
+  EXPECT_EQ(r.size(), 6u);
+  EXPECT_EQ(allocations, 0u);
+}
+
 RC_GTEST_PROP(event, compose_and_inverse_are_pointwise, ()) {
   auto const n = *atom_count().as("atoms");
   auto const e = *event_over(n).as("e");
@@ -370,6 +394,49 @@ TEST(event, atoms_may_own_memory) {
   EXPECT_EQ(rota::compose(e, on_strings::addition(y)), on_strings::addition(x));
   EXPECT_EQ(rota::compose(e, e), e);
 }
+
+TEST(event, many_atoms_may_own_memory) {
+  auto const name = [](int i) { return std::string(30, 'x') + std::to_string(100 + i); };
+  rota::event<std::string> e, f;
+  rota::event<int> on_numbers_e, on_numbers_f;
+  for (int i = 0; i < 90; ++i) {
+    auto const add = [&](auto& strings, auto& numbers) {
+      using on_strings = rota::event<std::string>;
+      using on_numbers = rota::event<int>;
+      bool const plus = i % 7 < 3;
+      strings = compose(strings, plus ? on_strings::addition(name(i)) : on_strings::subtraction(name(i)));
+      numbers = compose(numbers, plus ? on_numbers::addition(i) : on_numbers::subtraction(i));
+    };
+    if (i % 2 == 0) add(e, on_numbers_e);
+    if (i % 3 == 0) add(f, on_numbers_f);
+  }
+  f = rota::inverse(f);  // so that they cancel where they meet
+  auto const r = compose(e, f);
+  auto const expected = compose(on_numbers_e, rota::inverse(on_numbers_f));
+  ASSERT_EQ(r.size(), expected.size());
+  EXPECT_EQ(r.size(), 45u);
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    EXPECT_EQ(r.begin()[i].atom, name(expected.begin()[i].atom));
+    EXPECT_EQ(r.begin()[i].value, expected.begin()[i].value);
+  }
+}
+
+namespace {
+
+constexpr bool long_events_compose_at_compile_time() {
+  rota::atom_set<int> even, third;
+  for (int i = 0; i < 60; ++i) {
+    if (i % 2 == 0) even.insert(i);
+    if (i % 3 == 0) third.insert(i);
+  }
+  auto const e = rota::event<int>::make(even, {}).value();
+  auto const f = rota::event<int>::make({}, third).value();
+  auto const one = rota::event<int>::subtraction(30);
+  return compose(e, f).size() == 30 && compose(e, f)(6) == sign::zero && compose(e, one).size() == 29;
+}
+static_assert(long_events_compose_at_compile_time());
+
+}  // namespace
 
 #ifndef NDEBUG
 TEST(event_death, entries_out_of_order_or_zero_are_asserted) {

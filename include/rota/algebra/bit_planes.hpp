@@ -74,7 +74,7 @@ public:
 
 private:
   [[no_unique_address]] U universe_{};
-  typename plane_storage<U, Planes>::type words_{};
+  typename plane_storage<U, Planes>::type words_;  // filled by every constructor
 };
 
 /// The index of the lowest bit of the n words `word_at(i)`, or 64·n where all are zero.

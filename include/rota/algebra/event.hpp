@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rota/algebra/atom_set.hpp>
+#include <rota/algebra/merge.hpp>
 #include <rota/core/result.hpp>
 
 #include <compare>
@@ -131,22 +132,8 @@ private:
 template <ordered_atom Atom>
 [[nodiscard]] constexpr event<Atom> compose(event<Atom> const& e, event<Atom> const& f) {
   event<Atom> r;
-  r.entries_.append(e.size() + f.size(), [&](signed_atom<Atom>* out) {
-    auto const* x = e.begin();
-    auto const* y = f.begin();
-    auto const* const x_end = e.end();
-    auto const* const y_end = f.end();
-    while (x != x_end && y != y_end) {  // no branch on the order of two atoms, which nothing predicts
-      bool const from_e = !(y->atom < x->atom);
-      bool const from_f = !(x->atom < y->atom);
-      int const sum = from_e * to_int(x->value) + from_f * to_int(y->value);
-      *out = {(from_e ? x : y)->atom, clamp_to_sign(sum)};
-      out += sum != 0;
-      x += from_e;
-      y += from_f;
-    }
-    return std::copy(y, y_end, std::copy(x, x_end, out));
-  });
+  r.entries_.append(e.size() + f.size(),
+                    [&](signed_atom<Atom>* out) { return detail::merge(e.begin(), e.end(), f.begin(), f.end(), out); });
   return r;
 }
 

@@ -8,16 +8,36 @@
 #include <cstddef>
 #include <initializer_list>
 #include <iterator>
+#include <limits>
+#include <new>
 #include <type_traits>
 #include <utility>
 
 namespace rota {
 
+namespace detail {
+
+struct filled {};
+
+/// N places for what is trivially copied, which comes to life by being assigned to: filled in constant expressions only.
+template <class T, std::size_t N>
+union unfilled_places {
+  constexpr unfilled_places() noexcept {}
+  constexpr explicit unfilled_places(filled) : items{} {}
+  T items[N];
+};
+template <class T, std::size_t N>
+struct filled_places {
+  T items[N]{};
+};
+
+}  // namespace detail
+
 /// A sequence whose first `N` elements live inside the object: up to `N` nothing is allocated.
 ///
 /// Why not boost::container::small_vector: that of Boost 1.74 works in no constant expression, and costs three times
-/// `<vector>` to include. Elements are regular and default constructible, which keeps this one short; unused inline
-/// elements are value-initialised, and removed ones keep their last value until overwritten.
+/// `<vector>` to include. Elements are regular and default constructible, which keeps this one short; removed
+/// elements keep their last value until overwritten.
 ///
 /// Complexity: as std::vector; move is O(N) while inline.
 template <std::semiregular T, std::size_t N>
@@ -29,7 +49,7 @@ public:
   using const_iterator = T const*;
   static constexpr bool nothrow_movable = std::is_nothrow_move_assignable_v<T>;
 
-  constexpr small_vector() = default;
+  constexpr small_vector() : inline_(no_places()) {}
   // Delegating, so that the destructor runs when copying an element throws.
   constexpr small_vector(std::initializer_list<T> items) : small_vector(items.begin(), items.end()) {}
   template <std::input_iterator I, std::sentinel_for<I> S>
@@ -45,15 +65,15 @@ public:
   }
   constexpr small_vector& operator=(small_vector&& other) noexcept(nothrow_movable) {
     if (this != &other) {
-      delete[] std::exchange(heap_, nullptr);
+      release(std::exchange(heap_, nullptr));
       take(other);
     }
     return *this;
   }
-  constexpr ~small_vector() { delete[] heap_; }
+  constexpr ~small_vector() { release(heap_); }
 
-  [[nodiscard]] constexpr T* data() noexcept { return heap_ ? heap_ : inline_; }
-  [[nodiscard]] constexpr T const* data() const noexcept { return heap_ ? heap_ : inline_; }
+  [[nodiscard]] constexpr T* data() noexcept { return heap_ ? heap_ : inline_.items; }
+  [[nodiscard]] constexpr T const* data() const noexcept { return heap_ ? heap_ : inline_.items; }
   [[nodiscard]] constexpr T* begin() noexcept { return data(); }
   [[nodiscard]] constexpr T* end() noexcept { return data() + size_; }
   [[nodiscard]] constexpr T const* begin() const noexcept { return data(); }
@@ -81,8 +101,8 @@ public:
     if (wanted <= capacity_) return;
     struct owner {  // std::unique_ptr works in no constant expression before C++23
       T* items;
-      constexpr ~owner() { delete[] items; }
-    } bigger{new T[wanted]{}};
+      constexpr ~owner() { release(items); }
+    } bigger{obtain(wanted)};
     std::move(begin(), end(), bigger.items);
     std::swap(heap_, bigger.items);
     capacity_ = wanted;
@@ -143,14 +163,39 @@ public:
   }
 
 private:
+  // What is trivially copied comes to life by being assigned to: to fill it first would double the cost of a large result.
+  static constexpr bool needs_no_filling =
+      std::is_trivially_copyable_v<T> && alignof(T) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__;
+
+  using places = std::conditional_t<needs_no_filling, detail::unfilled_places<T, N>, detail::filled_places<T, N>>;
+
+  static constexpr places no_places() {
+    if constexpr (needs_no_filling) {
+      return std::is_constant_evaluated() ? places(detail::filled{}) : places();
+    } else {
+      return places();
+    }
+  }
+  static constexpr T* obtain(std::size_t count) {
+    if (!needs_no_filling || std::is_constant_evaluated()) return new T[count]{};
+    constexpr auto most = std::numeric_limits<std::size_t>::max();
+    return static_cast<T*>(::operator new(count <= most / sizeof(T) ? count * sizeof(T) : most));
+  }
+  static constexpr void release(T* items) noexcept {
+    if (!needs_no_filling || std::is_constant_evaluated()) {
+      delete[] items;
+    } else if (items) {
+      ::operator delete(items);
+    }
+  }
   constexpr void take(small_vector& other) noexcept(nothrow_movable) {
     heap_ = std::exchange(other.heap_, nullptr);
     capacity_ = std::exchange(other.capacity_, N);
     size_ = std::exchange(other.size_, 0);
-    if (!heap_) std::move(other.inline_, other.inline_ + size_, inline_);
+    if (!heap_) std::move(other.begin(), other.begin() + size_, inline_.items);
   }
 
-  T inline_[N]{};
+  places inline_;
   T* heap_ = nullptr;
   std::size_t size_ = 0;
   std::size_t capacity_ = N;

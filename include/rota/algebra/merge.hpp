@@ -1,0 +1,97 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
+/// Merging two runs of signed atoms, strictly ascending by atom. Nothing predicts which of two atoms is less, so no step
+/// branches on it; and as each step waits for the one before it, two merges run side by side, from both ends.
+
+namespace rota::detail {
+
+/// b as 0 or 1. Hidden from the optimiser, which would branch again on what it knows to be a condition.
+constexpr std::size_t as_number(bool b) noexcept {
+  std::size_t n = b;
+  if (!std::is_constant_evaluated()) asm("" : "+r"(n));
+  return n;
+}
+
+/// What one step of a merge takes from each run, and whether it leaves an entry: two of one atom cancel or are the same.
+struct merge_step {
+  std::size_t from_x;
+  std::size_t from_y;
+  std::size_t left;
+
+  template <class Entry>
+  constexpr merge_step(Entry const& x, Entry const& y, bool x_first, bool y_first)
+      : from_x(as_number(x_first)), from_y(as_number(y_first)), left((from_x ^ from_y) | (x.value == y.value)) {}
+};
+
+/// std::copy, without a call where there is next to nothing to copy.
+template <class Entry>
+constexpr Entry* copy_run(Entry const* first, Entry const* last, Entry* out) {
+  if (last - first > 8) return std::copy(first, last, out);
+  while (first != last) *out++ = *first++;
+  return out;
+}
+
+/// Two runs of similar length. O(|x| + |y|).
+template <class Entry>
+constexpr Entry* merge_evenly(Entry const* x, Entry const* x_end, Entry const* y, Entry const* y_end, Entry* out) {
+  Entry* const end = out + (x_end - x) + (y_end - y);
+  Entry* back = end;
+  auto const at_the_front = [&] {
+    merge_step const step(*x, *y, !(y->atom < x->atom), !(x->atom < y->atom));
+    *out = *(step.from_x ? x : y);
+    x += step.from_x;
+    y += step.from_y;
+    out += step.left;
+  };
+  auto const at_the_back = [&] {
+    auto const* const i = x_end - 1;
+    auto const* const j = y_end - 1;
+    merge_step const step(*i, *j, !(i->atom < j->atom), !(j->atom < i->atom));
+    back[-1] = *(step.from_x ? i : j);
+    x_end -= step.from_x;
+    y_end -= step.from_y;
+    back -= step.left;
+  };
+  auto const safe_steps = [&] { return std::min(x_end - x, y_end - y) / 2; };  // for so many, the ends cannot meet
+  for (auto steps = safe_steps(); steps > 1; steps = safe_steps())
+    for (; steps > 0; --steps) {
+      at_the_front();
+      at_the_back();
+    }
+  while (x != x_end && y != y_end) at_the_front();
+  out = copy_run(y, y_end, copy_run(x, x_end, out));
+  return out == back ? end : std::move(back, end, out);
+}
+
+/// A long run and a short one: finds each place by steps that double, and copies what lies between. O(|y| log |x|)
+/// comparisons.
+template <class Entry>
+constexpr Entry* merge_into(Entry const* x, Entry const* x_end, Entry const* y, Entry const* y_end, Entry* out) {
+  for (; y != y_end; ++y) {
+    std::ptrdiff_t reach = 1;
+    while (reach < x_end - x && x[reach].atom < y->atom) reach *= 2;
+    auto const* const place = std::lower_bound(x + reach / 2, std::min(x + reach, x_end), y->atom,
+                                               [](Entry const& entry, auto const& key) { return entry.atom < key; });
+    out = std::copy(x, place, out);
+    x = place;
+    bool const partner = x != x_end && x->atom == y->atom;
+    if (!partner || x->value == y->value) *out++ = *y;
+    x += partner;
+  }
+  return std::copy(x, x_end, out);
+}
+
+/// Writes the clamped sum of two events, at most |x| + |y| entries, and returns its end.
+template <class Entry>
+constexpr Entry* merge(Entry const* x, Entry const* x_end, Entry const* y, Entry const* y_end, Entry* out) {
+  constexpr std::ptrdiff_t lopsided = 16;
+  if ((x_end - x) / lopsided > y_end - y) return merge_into(x, x_end, y, y_end, out);
+  if ((y_end - y) / lopsided > x_end - x) return merge_into(y, y_end, x, x_end, out);
+  return merge_evenly(x, x_end, y, y_end, out);
+}
+
+}  // namespace rota::detail
