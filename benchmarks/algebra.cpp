@@ -1,20 +1,25 @@
 // Composition, difference, application and the group, beside what one would write without the library.
 //
-// `atoms:N`: N additions and N subtractions a side, 64-bit atoms, a quarter of them shared. A row with `peer:` does the
-// same work on the same inputs.
+// `atoms:N`: N additions and N subtractions a side, 64-bit atoms, a quarter of them shared. `bits:N`: bit planes over N atoms,
+// a quarter of them added and a quarter subtracted. A row with `peer:` does the same work on the same inputs.
 
 #include "support.hpp"
 
 #include <rota/algebra/action.hpp>
 #include <rota/algebra/delta.hpp>
+#include <rota/algebra/dense_event.hpp>
 
+#include <Eigen/SparseCore>
 #include <boost/container/flat_set.hpp>
+#include <boost/dynamic_bitset.hpp>
+#include <roaring/roaring.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
@@ -75,8 +80,8 @@ naive_event<sorted> compose_sorted(naive_event<sorted> const& e, naive_event<sor
   return {subtract(plus, minus), subtract(minus, plus)};
 }
 
-event random_event(std::mt19937_64& random, std::size_t n) {
-  std::vector<atom> universe(8 * n);
+event random_event(std::mt19937_64& random, std::size_t n, std::size_t atoms_in_all) {
+  std::vector<atom> universe(atoms_in_all);
   for (std::size_t i = 0; i < universe.size(); ++i) universe[i] = i;
   for (std::size_t i = 0; i < 2 * n; ++i) std::swap(universe[i], universe[i + pick(random, universe.size() - i)]);
   auto const first = universe.begin();
@@ -87,15 +92,16 @@ event random_event(std::mt19937_64& random, std::size_t n) {
 using pair_of_events = std::pair<event, event>;
 
 /// So many pairs that the branch predictor cannot learn them, and few enough to stay in the cache.
-std::vector<pair_of_events> event_pairs(std::size_t n) {
+std::vector<pair_of_events> event_pairs(std::size_t n, std::size_t atoms_in_all) {
   auto random = seeded();
   std::vector<pair_of_events> pairs;
-  for (std::size_t i = 0; i < std::min<std::size_t>(1024, (std::size_t{1} << 18) / (4 * n)); ++i) {
-    auto e = random_event(random, n);
-    pairs.emplace_back(std::move(e), random_event(random, n));
+  for (std::size_t i = 0; i < std::clamp<std::size_t>((std::size_t{1} << 18) / (4 * n), 4, 1024); ++i) {
+    auto e = random_event(random, n, atoms_in_all);
+    pairs.emplace_back(std::move(e), random_event(random, n, atoms_in_all));
   }
   return pairs;
 }
+std::vector<pair_of_events> event_pairs(std::size_t n) { return event_pairs(n, 8 * n); }
 /// The same inputs in another representation.
 template <class To, class From, class F>
 std::vector<std::pair<To, To>> convert(std::vector<From> const& pairs, F f) {
@@ -126,16 +132,151 @@ void compose_set_algorithms(benchmark::State& state) {
   rotate(state, inputs, [](auto const& p) { return compose_sorted(p.first, p.second); });
 }
 
-/// What no composition can beat by much: reading both events and writing as many bytes.
-void compose_memcpy(benchmark::State& state) {
+/// A sum of sparse vectors, clamped.
+using sparse_vector = Eigen::SparseVector<int, Eigen::ColMajor, std::int64_t>;
+
+sparse_vector to_eigen(event const& e, std::size_t atoms_in_all) {
+  sparse_vector v(static_cast<std::int64_t>(atoms_in_all));
+  for (auto const& x : e) v.insertBack(static_cast<std::int64_t>(x.atom)) = to_int(x.value);
+  return v;
+}
+sparse_vector compose_eigen(sparse_vector const& e, sparse_vector const& f) {
+  sparse_vector r = e + f;
+  r.coeffs() = r.coeffs().min(1).max(-1);
+  r.prune(1);  // what is much smaller than 1: zeros
+  return r;
+}
+void compose_sparse_vectors(benchmark::State& state) {
   auto const pairs = event_pairs(size_of(state));
-  std::vector<event::entry> out(4 * size_of(state));
+  auto const inputs = convert<sparse_vector>(pairs, [&](event const& e) { return to_eigen(e, 8 * size_of(state)); });
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    auto const r = compose_eigen(inputs[i].first, inputs[i].second);
+    auto const expected = compose(pairs[i].first, pairs[i].second);
+    check(static_cast<std::size_t>(r.nonZeros()) == expected.size(), "compose, Eigen: size");
+    for (auto const& x : expected) check(r.coeff(std::int64_t(x.atom)) == to_int(x.value), "compose, Eigen");
+  }
+  rotate(state, inputs, [](auto const& p) { return compose_eigen(p.first, p.second); });
+}
+
+/// Compressed bitmaps, which are made for large sets of 32-bit numbers.
+struct roaring_free {
+  void operator()(roaring_bitmap_t* b) const { roaring_bitmap_free(b); }
+};
+using roaring = std::unique_ptr<roaring_bitmap_t, roaring_free>;
+struct roaring_event {
+  roaring plus;
+  roaring minus;
+};
+roaring to_roaring(atoms const& c) {
+  roaring r{roaring_bitmap_create()};
+  for (atom const x : c) roaring_bitmap_add(r.get(), static_cast<std::uint32_t>(x));
+  return r;
+}
+roaring_event to_roaring_event(event const& e) { return {to_roaring(e.additions()), to_roaring(e.subtractions())}; }
+roaring_event compose_bitmaps(roaring_event const& e, roaring_event const& f) {
+  roaring const plus{roaring_bitmap_or(e.plus.get(), f.plus.get())};
+  roaring const minus{roaring_bitmap_or(e.minus.get(), f.minus.get())};
+  return {roaring{roaring_bitmap_andnot(plus.get(), minus.get())},
+          roaring{roaring_bitmap_andnot(minus.get(), plus.get())}};
+}
+bool same(roaring_event const& a, roaring_event const& b) {
+  return roaring_bitmap_equals(a.plus.get(), b.plus.get()) && roaring_bitmap_equals(a.minus.get(), b.minus.get());
+}
+void compose_roaring(benchmark::State& state) {
+  auto const pairs = event_pairs(size_of(state));
+  auto const inputs = convert<roaring_event>(pairs, to_roaring_event);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    check(same(compose_bitmaps(inputs[i].first, inputs[i].second),
+               to_roaring_event(compose(pairs[i].first, pairs[i].second))),
+          "compose, CRoaring");
+  rotate(state, inputs, [](auto const& p) { return compose_bitmaps(p.first, p.second); });
+}
+
+/// What no composition can beat by much: reading both events and writing as many bytes.
+void copy_inputs(benchmark::State& state, std::vector<pair_of_events> const& pairs) {
+  std::vector<event::entry> out(pairs.front().first.size() + pairs.front().second.size());
   rotate(state, pairs, [&](auto const& p) {
     std::memcpy(out.data(), p.first.begin(), p.first.size() * sizeof(event::entry));
     std::memcpy(out.data() + p.first.size(), p.second.begin(), p.second.size() * sizeof(event::entry));
     benchmark::ClobberMemory();
     return out.data();
   });
+}
+void compose_memcpy(benchmark::State& state) { copy_inputs(state, event_pairs(size_of(state))); }
+
+/// A large event, and one of two entries.
+std::vector<pair_of_events> lopsided_pairs(std::size_t n) {
+  auto random = seeded();
+  auto pairs = event_pairs(n);
+  for (auto& p : pairs) p.second = random_event(random, 1, 8 * n);
+  return pairs;
+}
+void compose_lopsided(benchmark::State& state) {
+  auto const pairs = lopsided_pairs(size_of(state));
+  for (auto const& [e, f] : pairs)
+    check(to_naive<sorted>(compose(e, f)) == compose_sorted(to_naive<sorted>(e), to_naive<sorted>(f)), "lopsided");
+  rotate(state, pairs, [](auto const& p) { return compose(p.first, p.second); });
+}
+void compose_lopsided_memcpy(benchmark::State& state) { copy_inputs(state, lopsided_pairs(size_of(state))); }
+
+/// The events of `compose_sparse` in bit planes of one word.
+template <std::size_t Bits>
+void compose_fixed_planes(benchmark::State& state, std::vector<pair_of_events> const& pairs) {
+  using universe = rota::index_universe<Bits>;
+  auto const inputs =
+      convert<rota::dense_event<universe>>(pairs, [](event const& e) { return to_dense(e, universe{}).value(); });
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    check(to_sparse(compose(inputs[i].first, inputs[i].second)) == compose(pairs[i].first, pairs[i].second), "planes");
+  rotate(state, inputs, [](auto const& p) { return compose(p.first, p.second); });
+}
+void compose_one_word(benchmark::State& state) { compose_fixed_planes<64>(state, event_pairs(size_of(state))); }
+
+std::vector<pair_of_events> plane_pairs(benchmark::State const& state) {
+  return event_pairs(size_of(state) / 4, size_of(state));
+}
+template <std::size_t Bits>
+void compose_fixed(benchmark::State& state) {
+  compose_fixed_planes<Bits>(state, plane_pairs(state));
+}
+/// Planes over a universe that is known at run time only.
+void compose_dense(benchmark::State& state) {
+  std::vector<atom> numbers(size_of(state));
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
+  atoms const all(numbers.begin(), numbers.end());
+  rota::listed_universe<atom> const universe(all);
+  auto const pairs = plane_pairs(state);
+  auto const inputs = convert<rota::dense_event<rota::listed_universe<atom>>>(
+      pairs, [&](event const& e) { return to_dense(e, universe).value(); });
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    check(to_sparse(compose(inputs[i].first, inputs[i].second)) == compose(pairs[i].first, pairs[i].second), "dense");
+  rotate(state, inputs, [](auto const& p) { return compose(p.first, p.second); });
+}
+
+using bitset = boost::dynamic_bitset<std::uint64_t>;
+struct bitset_event {
+  bitset plus;
+  bitset minus;
+};
+/// By the same formula as ours.
+bitset_event compose_bitsets(bitset_event const& e, bitset_event const& f) {
+  auto const plus = e.plus | f.plus;
+  auto const minus = e.minus | f.minus;
+  return {plus - minus, minus - plus};
+}
+void compose_dynamic_bitset(benchmark::State& state) {
+  auto const to_bitsets = [&](event const& e) {
+    bitset_event r{bitset(size_of(state)), bitset(size_of(state))};
+    for (auto const& x : e) (x.value == rota::sign::plus ? r.plus : r.minus).set(x.atom);
+    return r;
+  };
+  auto const pairs = plane_pairs(state);
+  auto const inputs = convert<bitset_event>(pairs, to_bitsets);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    auto const r = compose_bitsets(inputs[i].first, inputs[i].second);
+    auto const expected = to_bitsets(compose(pairs[i].first, pairs[i].second));
+    check(r.plus == expected.plus && r.minus == expected.minus, "compose, dynamic_bitset");
+  }
+  rotate(state, inputs, [](auto const& p) { return compose_bitsets(p.first, p.second); });
 }
 
 std::vector<std::pair<atoms, atoms>> set_pairs(std::size_t n) {
@@ -196,7 +337,8 @@ void delta_sum_map(benchmark::State& state) {
 }
 
 using benchmark::internal::Benchmark;
-void sizes(Benchmark* b) { b->ArgName("atoms")->Arg(1)->Arg(4)->Arg(16)->Arg(64)->Arg(256)->Arg(4096); }
+void sizes(Benchmark* b) { b->ArgName("atoms")->Arg(1)->Arg(4)->Arg(16)->Arg(64)->Arg(256)->Arg(4096)->Arg(65536); }
+void plane_sizes(Benchmark* b) { b->ArgName("bits")->Arg(64)->Arg(256)->Arg(4096)->Arg(65536); }
 void few_sizes(Benchmark* b) { b->ArgName("atoms")->Arg(4)->Arg(64)->Arg(4096); }
 
 BENCHMARK(compose_sparse)->Name("compose/sparse")->Apply(sizes);
@@ -205,7 +347,16 @@ BENCHMARK(compose_peer<boost::container::flat_set<atom>>)
     ->Name("compose/sparse/peer:boost_flat_set_naive")
     ->Apply(sizes);
 BENCHMARK(compose_set_algorithms)->Name("compose/sparse/peer:std_set_algorithms")->Apply(sizes);
+BENCHMARK(compose_sparse_vectors)->Name("compose/sparse/peer:eigen_sum_clamped")->Apply(sizes);
+BENCHMARK(compose_roaring)->Name("compose/sparse/peer:croaring_32_bit")->Apply(sizes);
 BENCHMARK(compose_memcpy)->Name("compose/sparse/peer:memcpy_of_input")->Apply(sizes);
+BENCHMARK(compose_lopsided)->Name("compose/lopsided")->ArgName("atoms")->Arg(65536);
+BENCHMARK(compose_lopsided_memcpy)->Name("compose/lopsided/peer:memcpy_of_input")->ArgName("atoms")->Arg(65536);
+BENCHMARK(compose_one_word)->Name("compose/one_word")->ArgName("atoms")->Arg(1)->Arg(4);
+BENCHMARK(compose_dense)->Name("compose/dense")->Apply(plane_sizes);
+BENCHMARK(compose_fixed<64>)->Name("compose/dense/peer:rota_compile_time_size")->ArgName("bits")->Arg(64);
+BENCHMARK(compose_fixed<4096>)->Name("compose/dense/peer:rota_compile_time_size")->ArgName("bits")->Arg(4096);
+BENCHMARK(compose_dynamic_bitset)->Name("compose/dense/peer:boost_dynamic_bitset")->Apply(plane_sizes);
 BENCHMARK(difference_sparse)->Name("difference")->Apply(few_sizes);
 BENCHMARK(difference_set_algorithms)->Name("difference/peer:std_set_algorithms")->Apply(few_sizes);
 BENCHMARK(apply_sparse)->Name("apply")->Apply(few_sizes);
