@@ -150,6 +150,38 @@ private:
 
 std::vector<std::size_t> const three_atoms{0, 4, 13};
 
+// The carrier: three values, by the compiler -----------------------------------------------------------------------------
+
+using rota::clamped_sum;
+using rota::sign;
+constexpr std::array carrier{sign::minus, sign::zero, sign::plus};
+
+constexpr bool pairs_are_clamped_sums_with_all_laws_but_associativity() {
+  for (sign const s : carrier) {
+    if (clamped_sum(s, sign::zero) != s || clamped_sum(s, s) != s) return false;
+    for (sign const t : carrier) {
+      if (to_int(clamped_sum(s, t)) != std::clamp(to_int(s) + to_int(t), -1, 1)) return false;
+      if (clamped_sum(s, t) != clamped_sum(t, s)) return false;
+      if ((clamped_sum(s, t) == sign::zero) != (to_int(s) == -to_int(t))) return false;  // one inverse each
+    }
+  }
+  return true;
+}
+static_assert(pairs_are_clamped_sums_with_all_laws_but_associativity());
+
+constexpr int failing_triples() {
+  int failing = 0;
+  for (sign const s : carrier)
+    for (sign const t : carrier)
+      for (sign const u : carrier) {
+        bool const fails = clamped_sum(clamped_sum(s, t), u) != clamped_sum(s, clamped_sum(t, u));
+        if (fails != rota::brackets_matter(s, t, u)) return -1;
+        failing += fails;
+      }
+  return failing;
+}
+static_assert(failing_triples() == 4);
+
 // Def. 3 and 4 -----------------------------------------------------------------------------------------------------------
 
 TEST(compose, is_definition_4) {
