@@ -8,6 +8,8 @@
 #include <rota/adapters/alica.hpp>
 #include <rota/adapters/eigen.hpp>
 #include <rota/sim/evaluation.hpp>
+#include <rota/testing/arbitrary.hpp>
+#include <rota/testing/check.hpp>
 #endif
 
 int main() {
@@ -15,8 +17,9 @@ int main() {
   auto const e = rota::difference(before, after);
   bool ok = rota::compose(e, inverse(e)).empty();
 #ifdef WITH_COMPONENTS
-  // What links against the packages of the components: pugixml, nlohmann-json, Eigen, Boost.
+  // What links against the packages of the components: pugixml, nlohmann-json, Eigen, Boost, rapidcheck.
   ok = ok && !rota::alica::load(std::filesystem::path("no such file")).diagnostics.empty();
+  ok = ok && rota::testing::broken_laws(rota::testing::commutative_magma_laws<rota::fingerprint>()).empty();
   ok = ok && rota::sim::all_scenarios.size() == 5;
 #endif
   return ok ? 0 : 1;

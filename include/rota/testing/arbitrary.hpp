@@ -1,0 +1,184 @@
+#pragma once
+/// @file
+/// rapidcheck generators of the algebra's types, over few atoms, so that random values meet; see values.hpp.
+
+#include <rota/algebra/structures.hpp>
+#include <rota/testing/groupoid_laws.hpp>
+#include <rota/testing/show.hpp>
+#include <rota/testing/structure_laws.hpp>
+#include <rota/testing/values.hpp>
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+
+namespace rota::testing {
+
+/// The atoms that generators draw: `static Atom nth(std::size_t i)` for i < 24, strictly ascending. Specialise it for
+/// atoms of your own; enumerations, integers, `strong_id`s of them and In-atoms made of such are known.
+template <class Atom>
+struct sample_atoms;
+
+template <class Atom>
+  requires std::integral<Atom> || std::is_enum_v<Atom>
+struct sample_atoms<Atom> {
+  static constexpr Atom nth(std::size_t i) { return static_cast<Atom>(i); }
+};
+template <class Tag, class Rep>
+struct sample_atoms<strong_id<Tag, Rep>> {
+  static constexpr strong_id<Tag, Rep> nth(std::size_t i) { return {sample_atoms<Rep>::nth(i)}; }
+};
+/// Four to an agent, so that few atoms hold one agent's rival tasks and plans.
+template <vocabulary V>
+struct sample_atoms<in<V>> {
+  static constexpr in<V> nth(std::size_t i) {
+    return {sample_atoms<typename V::agent>::nth(i / 4), sample_atoms<typename V::plan>::nth(i / 2 % 2),
+            sample_atoms<typename V::task>::nth(i % 2)};
+  }
+};
+
+template <class Atom>
+[[nodiscard]] constexpr Atom nth_atom(std::size_t i) {
+  return sample_atoms<Atom>::nth(i);
+}
+
+/// The set of the atoms whose entry is `which`.
+template <class Atom>
+[[nodiscard]] constexpr atom_set<Atom> atoms_where(std::vector<int> const& values, int which) {
+  atom_set<Atom> c;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i] == which) c.insert(nth_atom<Atom>(i));
+  return c;
+}
+/// The event with these signs, built as Def. 3 says, from two sets: by neither `compose` nor `difference`.
+template <class Atom>
+[[nodiscard]] constexpr event<Atom> event_with(std::vector<int> const& signs) {
+  return event<Atom>::make(atoms_where<Atom>(signs, 1), atoms_where<Atom>(signs, -1)).value();
+}
+
+/// An event that may be applied at c: some atoms moved into c or out of it, in about half of all cases some the wrong way.
+template <class Atom>
+[[nodiscard]] rc::Gen<event<Atom>> event_at(atom_set<Atom> const& c) {
+  return made_of<event<Atom>>(-1, 1, [c](std::vector<int> signs) {
+    for (std::size_t i = 0; i < signs.size(); ++i)
+      if (c.contains(nth_atom<Atom>(i))) signs[i] = -signs[i];
+    return event_with<Atom>(signs);
+  });
+}
+/// c with some atoms put in that were out and out that were in.
+template <class Atom>
+[[nodiscard]] rc::Gen<atom_set<Atom>> set_flipped(atom_set<Atom> const& c) {
+  return made_of<atom_set<Atom>>(0, 1, [c](std::vector<int> const& marks) {
+    auto d = c;
+    for (std::size_t i = 0; i < marks.size(); ++i)
+      if (auto const x = nth_atom<Atom>(i); marks[i] != 0 && !d.insert(x)) d.erase(x);
+    return d;
+  });
+}
+/// A set related to c: equal, a part of it, more than it, and any other, each often.
+template <class Atom>
+[[nodiscard]] rc::Gen<atom_set<Atom>> set_beside(atom_set<Atom> const& c) {
+  return made_of<atom_set<Atom>>(-1, 2, [c](std::vector<int> const& marks) {
+    auto d = c;
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      auto const x = nth_atom<Atom>(i);
+      bool const inside = marks[i] == 2 ? !c.contains(x) : marks[i] == 0 ? c.contains(x) : marks[i] == 1;
+      if (inside) d.insert(x);
+      if (!inside) d.erase(x);
+    }
+    return d;
+  });
+}
+
+template <ordered_atom Atom>
+struct class_invariant<event<Atom>> {
+  static bool holds(event<Atom> const& e) {
+    auto const entries = [&](auto const& x, auto const& y) { return !(x.atom < y.atom); };
+    return std::adjacent_find(e.begin(), e.end(), entries) == e.end() &&
+           std::all_of(e.begin(), e.end(),
+                       [](auto const& x) { return x.value == sign::plus || x.value == sign::minus; });
+  }
+};
+template <ordered_atom Atom, integer_coefficient Coefficient>
+struct class_invariant<delta<Atom, Coefficient>> {
+  static bool holds(delta<Atom, Coefficient> const& d) {
+    auto const out_of_order = [](auto const& x, auto const& y) { return !(x.atom < y.atom); };
+    return std::adjacent_find(d.begin(), d.end(), out_of_order) == d.end() &&
+           std::none_of(d.begin(), d.end(), [](auto const& x) { return x.count == Coefficient{}; });
+  }
+};
+
+/// From C on: to any set.
+template <ordered_atom Atom>
+struct arrows<transition<Atom>> {
+  [[nodiscard]] static rc::Gen<transition<Atom>> from(atom_set<Atom> const& c) {
+    return rc::gen::map(set_beside(c), [c](atom_set<Atom> const& d) { return transition<Atom>(c, d); });
+  }
+};
+
+}  // namespace rota::testing
+
+template <rota::vocabulary V>
+struct rc::Arbitrary<rota::in<V>> {
+  static Gen<rota::in<V>> arbitrary() {
+    return gen::map(rota::testing::integer(0, 5),
+                    [](int i) { return rota::testing::nth_atom<rota::in<V>>(static_cast<std::size_t>(i)); });
+  }
+};
+template <rota::ordered_atom Atom>
+struct rc::Arbitrary<rota::atom_set<Atom>> {
+  static Gen<rota::atom_set<Atom>> arbitrary() {
+    return rota::testing::made_of<rota::atom_set<Atom>>(
+        0, 1, [](std::vector<int> const& v) { return rota::testing::atoms_where<Atom>(v, 1); });
+  }
+};
+template <rota::ordered_atom Atom>
+struct rc::Arbitrary<rota::event<Atom>> {
+  static Gen<rota::event<Atom>> arbitrary() {
+    return rota::testing::made_of<rota::event<Atom>>(-1, 1, &rota::testing::event_with<Atom>);
+  }
+};
+/// Multiplicities from −4 to 4: sums of a dozen fit into eight bits.
+template <rota::ordered_atom Atom, rota::integer_coefficient Coefficient>
+struct rc::Arbitrary<rota::delta<Atom, Coefficient>> {
+  static Gen<rota::delta<Atom, Coefficient>> arbitrary() {
+    return rota::testing::made_of<rota::delta<Atom, Coefficient>>(-4, 4, [](std::vector<int> const& counts) {
+      rota::delta<Atom, Coefficient> d;
+      for (std::size_t i = 0; i < counts.size(); ++i)
+        d += {rota::testing::nth_atom<Atom>(i), static_cast<Coefficient>(counts[i])};
+      return d;
+    });
+  }
+};
+/// Any 64 bits; zero and its neighbours often.
+template <>
+struct rc::Arbitrary<rota::fingerprint> {
+  static Gen<rota::fingerprint> arbitrary() {
+    return [](Random const& random, int) {
+      auto source = random;
+      auto const kind = source.next() % 8;
+      auto const bits = source.next();
+      return shrinkable::just(rota::fingerprint{kind < 2 ? bits % 3 - 1 : kind == 2 ? std::uint64_t{1} << 63 : bits});
+    };
+  }
+};
+/// Each atom is in neither set, in one, or in both: equal, nested and unrelated sets are all frequent.
+template <rota::ordered_atom Atom>
+struct rc::Arbitrary<rota::transition<Atom>> {
+  static Gen<rota::transition<Atom>> arbitrary() {
+    return rota::testing::made_of<rota::transition<Atom>>(0, 3, [](std::vector<int> const& v) {
+      using rota::testing::atoms_where;
+      auto const both = atoms_where<Atom>(v, 3);
+      return rota::transition<Atom>(unite(atoms_where<Atom>(v, 1), both), unite(atoms_where<Atom>(v, 2), both));
+    });
+  }
+};
+/// Of the first plan type.
+template <rota::vocabulary V>
+struct rc::Arbitrary<rota::allocation<V>> {
+  static Gen<rota::allocation<V>> arbitrary() {
+    return gen::map(gen::arbitrary<rota::allocation_atoms<V>>(),
+                    [](rota::allocation_atoms<V> const& c) { return rota::allocation<V>{{}, c}; });
+  }
+};

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <rota/algebra/group_action.hpp>
+#include <rota/algebra/groupoid.hpp>
+#include <rota/testing/law.hpp>
+
+#include <functional>
+
+namespace rota::testing {
+
+/// Generates arrows that start at a given object, so that composable ones can be drawn: specialise with
+/// `static rc::Gen<T> from(Object const&)`. Without it arbitrary arrows are tried until one fits, which takes few objects.
+template <class T>
+struct arrows {
+  template <class Object>
+  [[nodiscard]] static rc::Gen<T> from(Object const& object) {
+    return rc::gen::suchThat(rc::gen::arbitrary<T>(),
+                             [object](T const& t) { return structure<T>::source(t) == object; });
+  }
+};
+
+/// ends, identity, associative, inverse; of the structure S, see structure_laws.hpp.
+template <class T, class S = structure<T>>
+[[nodiscard]] bundle groupoid_laws() {
+  static constexpr auto after = [](T const& t, char const* name) -> T {
+    return *arrows<T>::from(S::target(t)).as(name);
+  };
+  bundle laws("groupoid");
+  laws.add("ends", "t·u goes from source(t) to target(u), t⁻¹ from target(t) to source(t), id(o) from o to o", [] {
+    auto const t = draw<T>("t");
+    auto const u = after(t, "u");
+    same("source(t·u)", S::source(S::compose(t, u)), "source(t)", S::source(t));
+    same("target(t·u)", S::target(S::compose(t, u)), "target(u)", S::target(u));
+    same("source(t⁻¹)", S::source(S::inverse(t)), "target(t)", S::target(t));
+    same("target(t⁻¹)", S::target(S::inverse(t)), "source(t)", S::source(t));
+    same("source(id)", S::source(S::identity(S::source(t))), "source(t)", S::source(t));
+    same("target(id)", S::target(S::identity(S::source(t))), "source(t)", S::source(t));
+  });
+  laws.add("identity", "id(source(t))·t = t = t·id(target(t))", [] {
+    auto const t = draw<T>("t");
+    same("id(source(t))·t", S::compose(S::identity(S::source(t)), t), "t", t);
+    same("t·id(target(t))", S::compose(t, S::identity(S::target(t))), "t", t);
+  });
+  laws.add("associative", "(t·u)·v = t·(u·v)", [] {
+    auto const t = draw<T>("t");
+    auto const u = after(t, "u");
+    auto const v = after(u, "v");
+    same("(t·u)·v", S::compose(S::compose(t, u), v), "t·(u·v)", S::compose(t, S::compose(u, v)));
+  });
+  laws.add("inverse", "t·t⁻¹ = id(source(t)), t⁻¹·t = id(target(t))", [] {
+    auto const t = draw<T>("t");
+    same("t·t⁻¹", S::compose(t, S::inverse(t)), "id(source(t))", S::identity(S::source(t)));
+    same("t⁻¹·t", S::compose(S::inverse(t), t), "id(target(t))", S::identity(S::target(t)));
+  });
+  return laws;
+}
+
+/// preserves_composition (hence identities and inverses): of a function from a groupoid to a group, here under `combine`.
+template <class T, class G, class S = structure<T>, class R = structure<G>>
+[[nodiscard]] bundle functor_laws(std::function<G(T const&)> f) {
+  bundle laws("functor");
+  laws.add_closure("preserves_composition", "f(t·u) = f(t)·f(u) where t·u exists", [f] {
+    auto const t = draw<T>("t");
+    T const u = *arrows<T>::from(S::target(t)).as("u");
+    same("f(t·u)", f(S::compose(t, u)), "f(t)·f(u)", R::combine(f(t), f(u)));
+  });
+  return laws;
+}
+
+/// identity, compatible; of the action A of the structure S.
+template <class G, class X, class A = action<G, X>, class S = structure<G>>
+[[nodiscard]] bundle group_action_laws() {
+  bundle laws("group_action");
+  laws.add("identity", "1·x = x", [] {
+    auto const x = draw<X>("x");
+    same("1·x", A::act(S::identity(), x), "x", x);
+  });
+  laws.add("compatible", "(g·h)·x = g·(h·x)", [] {
+    auto const g = draw<G>("g");
+    auto const h = draw<G>("h");
+    auto const x = draw<X>("x");
+    same("(g·h)·x", A::act(S::combine(g, h), x), "g·(h·x)", A::act(g, A::act(h, x)));
+  });
+  return laws;
+}
+
+/// What follows: each g is a bijection, undone by its inverse.
+template <class G, class X, class A = action<G, X>, class S = structure<G>>
+[[nodiscard]] bundle group_action_theorems() {
+  bundle laws("group_action_theorems");
+  laws.add("inverse_undoes", "g⁻¹·(g·x) = x", [] {
+    auto const g = draw<G>("g");
+    auto const x = draw<X>("x");
+    same("g⁻¹·(g·x)", A::act(S::inverse(g), A::act(g, x)), "x", x);
+  });
+  return laws;
+}
+
+}  // namespace rota::testing
