@@ -43,7 +43,8 @@ struct conflict_witness {
 /// An agent that does not execute the type holds ∅ of it; read literally ("no allocation") the proposition fails.
 /// @pre `cause` ∈ `causes(c1, c2)`; `cb` is for the same plan type. O(log |C_b|).
 template <vocabulary V>
-[[nodiscard]] constexpr conflict_witness<V> proposition_1(allocation<V> const& c1, allocation<V> const& c2,
+[[nodiscard]] constexpr conflict_witness<V> proposition_1([[maybe_unused]] allocation<V> const& c1,
+                                                          [[maybe_unused]] allocation<V> const& c2,
                                                           allocation<V> const& cb, in<V> const& cause) {
   ROTA_ASSERT(c1.type == c2.type && cb.type == c1.type);
   ROTA_ASSERT(c1.atoms.contains(cause) && !c2.atoms.contains(cause));
