@@ -1,8 +1,8 @@
 ; e is applicable at C, that is e⁺ ∩ C = ∅ and e⁻ ⊆ C, iff χ(C) + ι(e) stays within {0, 1}; then χ(e·C) = χ(C) + ι(e).
 ; Paper: section 4, how allocations change.
 ; Theory: docs/algebra.md, The action.
-; Code: applicable, apply. Tests: action.refuses_iff_the_sum_leaves_the_sets_and_names_the_least_atom,
-; action.characteristic_function_of_the_result_is_the_sum.
+; Code: applicable, apply. Tests: event.apply.refuses_iff_it_leaves_the_sets,
+; event.apply.characteristic_adds.
 
 (declare-const e Pair)
 (declare-const c Atoms)

@@ -1,7 +1,7 @@
 ; If e is applicable at C and f at e·C, then e∘f is applicable at C, and (e∘f)·C = f·(e·C). (∅, ∅)·C = C.
 ; Paper: Def. 4, used in Def. 5.
 ; Theory: docs/algebra.md, The action.
-; Code: apply, compose. Tests: action.apply_is_compatible_with_compose, action.a_composite_may_apply_where_its_parts_do_not.
+; Code: apply, compose. Tests: event.apply.compatible_with_compose, action.a_composite_may_apply_where_its_parts_do_not.
 
 (declare-const e Pair)
 (declare-const f Pair)

@@ -2,7 +2,7 @@
 ; are in conflict iff it holds one way or the other, that is, iff C₁ ≠ C₂ within one plan type.
 ; Paper: Def. 2.
 ; Theory: docs/algebra.md, Conflict, Proposition 1, cycle.
-; Code: conflicts_with, causes, in_conflict. Tests: conflict.is_definition_2, conflict.never_between_plan_types.
+; Code: conflicts_with, causes, in_conflict. Tests: conflict.definition_2.conflict_iff_some_cause, conflict.definition_2.never_between_plan_types.
 
 (declare-sort Type 0)
 (declare-datatypes ((Allocation 0)) (((allocation (type Type) (atoms Atoms)))))

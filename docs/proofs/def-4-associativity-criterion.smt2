@@ -2,7 +2,7 @@
 ; atoms and at no others, which is what non_associating_atoms returns.
 ; Paper: Def. 4 (repair of the group claim).
 ; Theory: docs/algebra.md, When brackets do not matter.
-; Code: associates, non_associating_atoms. Tests: event.associator_vanishes_iff_no_bad_sign_triple.
+; Code: associates, non_associating_atoms. Tests: event.associator.vanishes_iff_no_bad_sign_triple.
 
 (declare-const e Pair)
 (declare-const f Pair)

@@ -1,7 +1,7 @@
 ; The composition of two events is an event: no atom is both added and subtracted.
 ; Paper: Def. 4 (group claim: closure).
 ; Theory: docs/algebra.md, Not a group.
-; Code: compose. Tests: event.closed.
+; Code: compose. Tests: event.definition_4.closed.
 
 (declare-const e Pair)
 (declare-const f Pair)

@@ -1,7 +1,7 @@
 ; e∘f = f∘e.
 ; Paper: Def. 4 (group claim: abelian).
 ; Theory: docs/algebra.md, Not a group.
-; Code: compose. Tests: event.commutative.
+; Code: compose. Tests: event.definition_4.commutative.
 
 (declare-const e Pair)
 (declare-const f Pair)

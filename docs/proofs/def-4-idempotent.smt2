@@ -1,7 +1,7 @@
 ; e∘e = e for every event; hence events are no group.
 ; Paper: Def. 4 (group claim, refuted).
 ; Theory: docs/algebra.md, Not a group.
-; Code: compose. Tests: event.composing_with_itself_changes_nothing.
+; Code: compose. Tests: event.definition_4.idempotent.
 
 (push)
 (declare-const e Pair)

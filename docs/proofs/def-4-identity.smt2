@@ -1,7 +1,7 @@
 ; (∅, ∅) is the identity, and the only one.
 ; Paper: Def. 4 (group claim: identity).
 ; Theory: docs/algebra.md, Not a group.
-; Code: event::event(), compose. Tests: event.identity.
+; Code: event::event(), compose. Tests: event.definition_4.left_identity.
 
 (declare-const e Pair)
 (declare-const f Pair)

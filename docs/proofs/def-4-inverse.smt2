@@ -1,7 +1,7 @@
 ; (ϑ⁻, ϑ⁺) is an inverse of (ϑ⁺, ϑ⁻), and the only one.
 ; Paper: Def. 4 (group claim: inverse).
 ; Theory: docs/algebra.md, Not a group.
-; Code: inverse. Tests: event.inverse, event.inverse_is_unique.
+; Code: inverse. Tests: event.definition_4.right_inverse, event.definition_4.unique_inverse.
 
 (declare-const e Pair)
 (declare-const f Pair)

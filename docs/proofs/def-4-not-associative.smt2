@@ -1,7 +1,7 @@
 ; Composition is not associative. Of the 27 triples of signs exactly four disagree: (s, s, −s) and (−s, s, s), s = ±1.
 ; Paper: Def. 4 (group claim: associativity, refuted).
 ; Theory: docs/algebra.md, Not a group.
-; Code: compose, brackets_matter. Tests: event.is_no_group_neither_associative_nor_cancellative,
+; Code: compose, brackets_matter. Tests: wrong_structure.events_under_definition_4_are_no_group_for_want_of_associativity_alone,
 ; event.shortest_refutation_of_associativity.
 
 (push)

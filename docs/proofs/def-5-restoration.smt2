@@ -1,7 +1,7 @@
 ; Let e_m lead from C to C₁ and e_r from C₁ to C₂. Then e_m∘e_r mentions no In(b, ·, ·) iff b's part of C₂ is b's part of C.
 ; Paper: Def. 5 and "a cycle occurs, if an agent reverts its allocation with respect to a message by reallocation".
 ; Theory: docs/algebra.md, Conflict, Proposition 1, cycle.
-; Code: is_cycle. Tests: cycle.is_restoration_of_b_s_part, cycle.an_empty_message_event_is_no_event.
+; Code: is_cycle. Tests: cycle.definition_5_theorems.restores_b_s_part, cycle.definition_5.empty_message_is_no_event.
 
 (declare-sort Agent 0)
 (declare-fun agent (Atom) Agent)

@@ -2,8 +2,8 @@
 ; a homomorphism. At one atom; sums are taken atom by atom by definition. The universal property is proved in coq/Delta.v.
 ; Paper: Def. 4 (repair of the group claim).
 ; Theory: docs/algebra.md, What is true instead.
-; Code: delta, clamp. Tests: delta.abelian_group_associative, delta.abelian_group_cancellative,
-; delta.clamp_retracts_the_embedding, delta.compose_is_the_clamped_sum,
+; Code: delta, clamp. Tests: delta.abelian_group.associative, delta.group_theorems.cancellative,
+; delta.embedding.clamp_retracts_the_embedding, delta.embedding.compose_is_the_clamped_sum,
 ; delta.neither_embedding_nor_clamp_is_a_homomorphism.
 
 (declare-const e Pair)

@@ -1,7 +1,7 @@
 ; difference(C, C′)∘difference(C′, C″) = difference(C, C″), and the multiplicities add up without a clamp.
 ; Paper: Def. 4 as Def. 5 uses it.
 ; Theory: docs/algebra.md, Why the paper's use is sound.
-; Code: difference, transition, event_of, delta_of. Tests: action.difference_is_a_functor.
+; Code: difference, transition, event_of, delta_of. Tests: event.apply_theorems.difference_is_a_functor.
 ; This is the step of an induction: whatever the brackets, a run from C₀ to Cₙ composes to difference(C₀, Cₙ). The
 ; induction itself, over brackets of any size, is in coq/Run.v.
 

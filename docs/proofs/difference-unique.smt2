@@ -1,8 +1,8 @@
 ; For any C and C′ exactly one event is applicable at C and leads to C′: difference(C, C′) = (C′ ∖ C, C ∖ C′).
 ; Paper: section 4, how allocations change.
 ; Theory: docs/algebra.md, The action.
-; Code: difference, apply. Tests: action.exactly_one_applicable_event_leads_from_one_set_to_another,
-; action.difference_is_the_pair_of_set_differences.
+; Code: difference, apply. Tests: event.apply.unique_applicable_event,
+; event.apply.unique_applicable_event.
 
 (declare-const c Atoms)
 (declare-const d Atoms)

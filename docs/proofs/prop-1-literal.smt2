@@ -2,7 +2,7 @@
 ; may hold no allocation, and then nobody is in conflict with it. It holds iff b holds one, or ∅ counts as one.
 ; Paper: Prop. 1 (false as written, needs a reading).
 ; Theory: docs/algebra.md, Conflict, Proposition 1, cycle.
-; Code: proposition_1, whose cb is an allocation. Tests: proposition_1.witness_is_a_conflict_with_b_in_every_branch.
+; Code: proposition_1, whose cb is an allocation. Tests: conflict.proposition_1.witness_is_in_conflict_with_b.
 
 (declare-sort Agent 0)
 (declare-fun agent (Atom) Agent)

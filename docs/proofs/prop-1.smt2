@@ -2,8 +2,8 @@
 ; in b's own allocation, a₁ if it is not. An agent that does not execute the plan type holds ∅ of it.
 ; Paper: Prop. 1.
 ; Theory: docs/algebra.md, Conflict, Proposition 1, cycle.
-; Code: proposition_1. Tests: proposition_1.witness_is_a_conflict_with_b_in_every_branch,
-; proposition_1.corollary_b_s_message_is_news_to_the_witness.
+; Code: proposition_1. Tests: conflict.proposition_1.witness_is_in_conflict_with_b,
+; conflict.proposition_1_theorems.b_is_news_to_the_witness.
 ; One plan type throughout. The literal reading, which fails, is prop-1-literal.
 
 (declare-sort Agent 0)

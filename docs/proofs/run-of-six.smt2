@@ -1,8 +1,8 @@
 ; Of a run of up to six events every bracketing is the same event: the sum, which needs no clamp.
 ; Paper: Def. 4 as Def. 5 uses it (repair of the group claim).
 ; Theory: docs/algebra.md, Why the paper's use is sound.
-; Code: compose. Tests: run.every_bracketing_is_one_event_the_clamped_sum_which_needs_no_clamp,
-; run.a_run_of_length_six_has_forty_two_bracketings, run.consecutively_applicable_from_somewhere_iff_signs_alternate.
+; Code: compose. Tests: event.run.brackets_do_not_matter, event.run.left_fold_is_the_sum,
+; run.of_length_six_is_one_event_in_every_bracketing, run.consecutively_applicable_from_somewhere_iff_signs_alternate.
 ; At one atom (see def-4-clamped-sum): the events have signs s1 … s6 there, and bij is the value of a bracketing of
 ; si … sj whose outermost split comes after the event kij. A bracketing of six splits each interval that it uses at one
 ; place, and no choice excludes another: leaving every k open covers all 42 at once. Shorter runs end in zeros. For runs

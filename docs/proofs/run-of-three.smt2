@@ -2,7 +2,7 @@
 ; the one that leads from the first set to the last.
 ; Paper: Def. 4 as Def. 5 uses it (repair of the group claim).
 ; Theory: docs/algebra.md, Why the paper's use is sound.
-; Code: compose. Tests: run.every_bracketing_is_one_event_the_clamped_sum_which_needs_no_clamp,
+; Code: compose. Tests: event.run.brackets_do_not_matter, event.run.left_fold_is_the_sum,
 ; run.brackets_may_agree_without_being_a_run, run.a_permuted_run_may_depend_on_brackets.
 
 (declare-const e Pair)

@@ -1,7 +1,7 @@
-// Dense sets and events against sparse ones, over universes around the borders of a word; the laws again; refusals.
+// Dense sets and events against sparse ones, over universes around the borders of a word; refusals. The laws by name are in
+// tests/testing/events.cpp.
 
 #include "algebra/generators.hpp"
-#include "algebra/laws.hpp"
 #include "support/allocation_counter.hpp"
 
 #include <rota/algebra/allocation_event.hpp>
@@ -170,62 +170,6 @@ TEST(dense, is_sparse_on_everything_over_three_atoms) {
         }
   EXPECT_EQ(pairs, 27 * 27 * 8 * 8);
 }
-
-// The same laws -------------------------------------------------------------------------------------------------------
-
-namespace {
-
-/// The models of tests/algebra/models.hpp, on bit planes.
-template <class U>
-struct dense_model {
-  using dense = rota::dense_event<U>;
-  using set = rota::dense_atom_set<U>;
-  static inline atom_set const all = the_first(2);
-  static U the_universe() {
-    if constexpr (rota::fixed_universe<U>)
-      return {};
-    else
-      return U(all);
-  }
-  static std::vector<dense> elements() {
-    std::vector<dense> r;
-    for (auto const& e : every_event(2)) r.push_back(*to_dense(e, the_universe()));
-    return r;
-  }
-  static std::vector<set> sets() {
-    std::vector<set> r;
-    for (auto const& c : every_set(2)) r.push_back(*to_dense(c, the_universe()));
-    return r;
-  }
-  static bool valid(dense const& e) { return intersect(e.additions(), e.subtractions()).empty(); }
-  static dense identity() { return dense(the_universe()); }
-  static dense inverse(dense const& e) { return rota::inverse(e); }
-  static dense compose(dense const& e, dense const& f) { return rota::compose(e, f); }
-  static dense difference(set const& c, set const& d) { return rota::difference(c, d); }
-  static bool applicable(dense const& e, set const& c) { return rota::applicable(e, c); }
-  static auto apply(dense const& e, set const& c) { return rota::apply(e, c); }
-  static delta characteristic(set const& c) { return delta(to_sparse(c)); }
-  static delta embed(dense const& e) { return delta(to_sparse(e)); }
-
-  struct dense_delta : delta {
-    explicit dense_delta(dense const& e) : delta(to_sparse(e)) {}
-    explicit dense_delta(set const& c) : delta(to_sparse(c)) {}
-  };
-};
-
-template <class U>
-void obeys_the_laws_of_events() {
-  using model = dense_model<U>;
-  EXPECT_EQ(laws::broken<model>(laws::event_laws), laws::law_names{});
-  EXPECT_EQ(laws::broken<model>(laws::abelian_group_laws), (laws::law_names{"associative", "cancellative"}));
-  EXPECT_EQ((laws::broken_action_laws<model, typename model::dense_delta>(model::elements(), model::sets())),
-            laws::law_names{});
-}
-
-}  // namespace
-
-TEST(dense, laws_of_events_over_a_compile_time_universe) { obeys_the_laws_of_events<first_atoms<2>>(); }
-TEST(dense, laws_of_events_over_a_run_time_universe) { obeys_the_laws_of_events<listed>(); }
 
 // Universes -----------------------------------------------------------------------------------------------------------
 

@@ -10,7 +10,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <ostream>
 #include <vector>
 
 namespace universe {
@@ -29,29 +28,6 @@ rc::Gen<event> event_over(std::size_t atoms);
 rc::Gen<atom_set> set_over(std::size_t atoms);
 rc::Gen<delta> delta_over(std::size_t atoms);
 rc::Gen<std::vector<event>> events_over(std::size_t atoms, std::size_t count);
-
-/// Three events that associate about as often as not.
-struct triple {
-  event e, f, g;
-};
-rc::Gen<triple> triples();
-std::ostream& operator<<(std::ostream& out, triple const& t);
-
-/// An event and a set, applicable about as often as not: flips of some atoms, often with wrong signs thrown in.
-struct attempt {
-  event e;
-  atom_set c;
-};
-rc::Gen<attempt> attempts();
-std::ostream& operator<<(std::ostream& out, attempt const& t);
-
-/// Consecutively applicable events, from `start` on.
-struct history {
-  atom_set start;
-  std::vector<event> run;
-};
-rc::Gen<history> histories();
-std::ostream& operator<<(std::ostream& out, history const& h);
 
 /// The k-th of a fixed sequence of generated values: for counting how often a generator reaches what it should.
 template <class T>

@@ -16,10 +16,13 @@ namespace {
 using namespace rota::testing;
 using sample::atom;
 using sample::event;
+using dense_event = rota::dense_event<rota::index_universe<70>>;
 
-[[maybe_unused]] bool const registered = register_laws("event", event_laws<event>()) &&
-                                         register_laws("event", associator_laws<event>()) &&
-                                         register_laws("event", sign_function_laws<event>());
+[[maybe_unused]] bool const registered =
+    register_laws("event", event_laws<event>()) && register_laws("event", associator_laws<event>()) &&
+    register_laws("event", sign_function_laws<event>()) && register_laws("dense_event", event_laws<dense_event>()) &&
+    register_laws("dense_event", associator_laws<dense_event>()) &&
+    register_laws("dense_event", sign_function_laws<dense_event>());
 
 /// Def. 4 with another table of signs in the place of the clamped sum.
 template <int (*Table)(int, int)>

@@ -136,11 +136,11 @@ struct run_model {
   static result<event<Atom>, no_run<Atom>> compose_run(std::span<event<Atom> const> events) {
     return rota::compose_run(events);
   }
-  /// ρ(Σ ι(eᵢ)).
-  [[nodiscard]] static event<Atom> clamped_sum(std::span<event<Atom> const> events) {
-    delta<Atom> sum;
-    for (auto const& e : events) sum += delta<Atom>(e);
-    return clamp(sum);
+  /// Σ ι(eᵢ).
+  [[nodiscard]] static delta<Atom> sum(std::span<event<Atom> const> events) {
+    delta<Atom> total;
+    for (auto const& e : events) total += delta<Atom>(e);
+    return total;
   }
 };
 
@@ -201,7 +201,7 @@ template <class Atom>
 
 }  // namespace detail
 
-/// brackets_do_not_matter, left_fold_is_the_clamped_sum, compose_run_is_the_left_fold, compose_run_refuses_the_rest.
+/// brackets_do_not_matter, left_fold_is_the_sum, compose_run_is_the_left_fold, compose_run_refuses_the_rest.
 template <class M>
 [[nodiscard]] bundle run_laws() {
   using Atom = typename M::atom_type;
@@ -220,9 +220,9 @@ template <class M>
              for (auto const& e : all) same("one bracketing", e, "another", all.front());
            },
            {{"an atom moves three times"}});
-  laws.add("left_fold_is_the_clamped_sum", "e₁∘…∘eₙ = ρ(Σ ι(eᵢ)), for a run", [] {
+  laws.add("left_fold_is_the_sum", "ι(e₁∘…∘eₙ) = Σ ι(eᵢ), for a run: no clamp is needed", [] {
     auto const run = detail::draw_run<Atom>();
-    same("(…(e₁∘e₂)∘…)∘eₙ", fold(run), "ρ(Σ ι(eᵢ))", M::clamped_sum(run));
+    same("ι((…(e₁∘e₂)∘…)∘eₙ)", delta<Atom>(fold(run)), "Σ ι(eᵢ)", M::sum(run));
   });
   laws.add("compose_run_is_the_left_fold", "compose_run(e₁, …, eₙ) = (…(e₁∘e₂)∘…)∘eₙ, for a run", [] {
     auto const run = detail::draw_run<Atom>();

@@ -139,6 +139,20 @@ struct rc::Arbitrary<rota::event<Atom>> {
     return rota::testing::made_of<rota::event<Atom>>(-1, 1, &rota::testing::event_with<Atom>);
   }
 };
+/// The first and last atoms of the universe.
+template <rota::fixed_universe U>
+struct rc::Arbitrary<rota::dense_event<U>> {
+  static Gen<rota::dense_event<U>> arbitrary() {
+    return rota::testing::made_of<rota::dense_event<U>>(-1, 1, [](std::vector<int> const& signs) {
+      typename rota::dense_event<U>::set_type plus, minus;
+      for (std::size_t i = 0; i < std::min(signs.size(), U::size()); ++i) {
+        auto const x = U::atom_at(i % 2 == 0 ? i / 2 : U::size() - 1 - i / 2);
+        if (signs[i] != 0) (void)(signs[i] > 0 ? plus : minus).insert(x);
+      }
+      return rota::dense_event<U>::make(plus, minus).value();
+    });
+  }
+};
 /// Multiplicities from −4 to 4: sums of a dozen fit into eight bits.
 template <rota::ordered_atom Atom, rota::integer_coefficient Coefficient>
 struct rc::Arbitrary<rota::delta<Atom, Coefficient>> {

@@ -16,6 +16,8 @@ template <class S, class E>
 [[nodiscard]] auto signs_of(E const& e) {
   if constexpr (requires { S::signs(e); }) {
     return S::signs(e);
+  } else if constexpr (requires { to_sparse(e); }) {
+    return signs_of<S>(to_sparse(e));
   } else {
     std::map<typename E::atom_type, int> signs;
     for (auto const& x : e.additions()) signs[x] = 1;
@@ -131,6 +133,15 @@ template <class E, class S = structure<E>>
            },
            {{"signs cancel"}, {"signs agree"}});
   return laws;
+}
+
+/// All of the above: what an allocation event is.
+template <class E, class S = structure<E>>
+[[nodiscard]] bundle allocation_event_laws() {
+  return bundle("allocation_event")
+      .merge(event_laws<E, S>())
+      .merge(associator_laws<E, S>())
+      .merge(sign_function_laws<E, S>());
 }
 
 }  // namespace rota::testing

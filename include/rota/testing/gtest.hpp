@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <rota/testing/check.hpp>
+#include <rota/testing/event_laws.hpp>
 #include <rota/testing/groupoid_laws.hpp>
 #include <rota/testing/structure_laws.hpp>
 
@@ -12,11 +13,13 @@
 
 namespace rota::testing {
 
-/// The laws of the strongest structure that T has and claims.
+/// The laws of the strongest structure that T has and claims; of allocation events, if it also has `signs`.
 template <class T>
 [[nodiscard]] bundle laws_of() {
   if constexpr (groupoid<T>)
     return groupoid_laws<T>();
+  else if constexpr (requires(T const& x) { structure<T>::signs(x); })
+    return allocation_event_laws<T>();
   else
     return structure_laws<T>();
 }

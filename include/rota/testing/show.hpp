@@ -2,6 +2,7 @@
 /// @file
 /// How rapidcheck shows the algebra's values in counterexamples. Found by argument-dependent lookup.
 
+#include <rota/algebra/dense_event.hpp>
 #include <rota/algebra/fingerprint.hpp>
 #include <rota/algebra/transition.hpp>
 #include <rota/model/allocation.hpp>
@@ -65,6 +66,10 @@ void showValue(signed_atom<Atom> const& x, std::ostream& out) {
 template <ordered_atom Atom>
 void showValue(event<Atom> const& e, std::ostream& out) {
   testing::show_all("(", e, ")", out);
+}
+template <atom_universe U>
+void showValue(dense_event<U> const& e, std::ostream& out) {
+  showValue(to_sparse(e), out);
 }
 /// 2 In(1, 0, 1)
 template <ordered_atom Atom, class Coefficient>
