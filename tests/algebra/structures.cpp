@@ -10,7 +10,9 @@
 
 #include <array>
 #include <concepts>
+#include <cstdint>
 #include <string>
+#include <utility>
 
 namespace {
 
@@ -31,6 +33,21 @@ static_assert(!rota::group_action<event, atom_set> && !rota::group_action<event,
 // Nothing has a structure that nobody gave it.
 static_assert(!rota::magma<int> && !rota::magma<std::string> && !rota::magma<atom_set>);
 
+// What stands for integers, and what does not.
+static_assert(rota::integer_coefficient<std::int8_t> && !rota::integer_coefficient<unsigned>);
+static_assert(!rota::integer_coefficient<double> && !rota::integer_coefficient<rota::sign>);
+static_assert(!rota::integer_coefficient<std::string> && !rota::integer_coefficient<int*>);
+// Names without an encoding have no fingerprint; that is no error in a header.
+struct call_sign {
+  char letters[2] = {};
+  friend auto operator<=>(call_sign const&, call_sign const&) = default;
+};
+struct call_signs : rota::runtime_vocabulary {
+  using agent = call_sign;
+};
+static_assert(!rota::encodable_atom<rota::in<call_signs>> && rota::encodable_atom<atom>);
+static_assert(!rota::group_action<rota::delta<rota::in<call_signs>>, rota::fingerprint>);
+
 // The shortest refutation and the criterion, by the compiler.
 constexpr auto s = event::addition(nth(0));
 constexpr auto u = rota::inverse(s);
@@ -40,6 +57,17 @@ static_assert(rota::associates(s, u, s));
 // The same three in the group.
 static_assert((delta(s) + delta(s)) + delta(u) == delta(s) + (delta(s) + delta(u)));
 static_assert(rota::clamp(delta(s) + delta(u)) == event{} && 2 * delta(s) != delta(rota::compose(s, s)));
+// A long event and a short one, whose atoms lie before, within and beyond.
+constexpr rota::event<int> long_event() {
+  rota::small_vector<rota::signed_atom<int>, 8> entries;
+  for (int i = 0; i < 40; ++i) entries.push_back({2 * i, rota::sign::plus});
+  return rota::event<int>::from_entries(std::move(entries));
+}
+static_assert(rota::compose(long_event(), rota::event<int>::addition(-1)).size() == 41);
+static_assert(rota::compose(long_event(), rota::event<int>::subtraction(40)).size() == 39);
+static_assert(rota::compose(long_event(), rota::event<int>::subtraction(78)).size() == 39);
+static_assert(rota::compose(long_event(), rota::event<int>::make({101}, {100}).value()).size() == 42);
+static_assert(rota::compose(rota::event<int>::addition(101), long_event()).size() == 41);
 // A robot changes its mind twice, and comes back.
 constexpr bool a_run_composes() {
   std::array<event, 3> const run{s, u, s};

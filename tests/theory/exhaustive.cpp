@@ -3,6 +3,7 @@
 
 #include <rota/algebra/action.hpp>
 #include <rota/algebra/associativity.hpp>
+#include <rota/algebra/dense_event.hpp>
 #include <rota/algebra/runs.hpp>
 #include <rota/algebra/structures.hpp>
 #include <rota/core/atom.hpp>
@@ -156,12 +157,16 @@ using rota::clamped_sum;
 using rota::sign;
 constexpr std::array carrier{sign::minus, sign::zero, sign::plus};
 
+constexpr event one_atom_event(sign s) {
+  return s == sign::plus ? event::addition(nth(0)) : s == sign::minus ? event::subtraction(nth(0)) : event{};
+}
 constexpr bool pairs_are_clamped_sums_with_all_laws_but_associativity() {
   for (sign const s : carrier) {
     if (clamped_sum(s, sign::zero) != s || clamped_sum(s, s) != s) return false;
     for (sign const t : carrier) {
       if (to_int(clamped_sum(s, t)) != std::clamp(to_int(s) + to_int(t), -1, 1)) return false;
       if (clamped_sum(s, t) != clamped_sum(t, s)) return false;
+      if (compose(one_atom_event(s), one_atom_event(t)) != one_atom_event(clamped_sum(s, t))) return false;
       if ((clamped_sum(s, t) == sign::zero) != (to_int(s) == -to_int(t))) return false;  // one inverse each
     }
   }
@@ -176,6 +181,10 @@ constexpr int failing_triples() {
       for (sign const u : carrier) {
         bool const fails = clamped_sum(clamped_sum(s, t), u) != clamped_sum(s, clamped_sum(t, u));
         if (fails != rota::brackets_matter(s, t, u)) return -1;
+        auto const e = one_atom_event(s);
+        auto const f = one_atom_event(t);
+        auto const g = one_atom_event(u);
+        if (fails == (compose(compose(e, f), g) == compose(e, compose(f, g)))) return -1;
         failing += fails;
       }
   return failing;
@@ -359,6 +368,60 @@ TEST(fingerprint, is_the_same_on_every_machine) {
   EXPECT_EQ(fingerprint_of(atom_set{nth(0), nth(8), nth(16)}).value, 0x7f960aaf26f0ed7eu);
 }
 
+// The other storage -------------------------------------------------------------------------------------------------------
+
+TEST(dense_event, is_the_sparse_one_in_every_operation) {
+  law same("dense and sparse agree");
+  law refuses("and refuse the same");
+  // Three atoms of 65, around the border of a word.
+  constexpr std::array<std::size_t, 3> chosen{0, 63, 64};
+  using U = rota::index_universe<65>;
+  using sparse_event = rota::event<std::size_t>;
+  using sparse_set = rota::atom_set<std::size_t>;
+  std::vector<sparse_event> all_events{{}};
+  std::vector<sparse_set> all_sets{{}};
+  for (std::size_t const x : chosen) {
+    auto const shorter_events = all_events;
+    for (auto const& e : shorter_events)
+      for (auto const& one : {sparse_event::addition(x), sparse_event::subtraction(x)})
+        all_events.push_back(compose(e, one));
+    auto const shorter_sets = all_sets;
+    for (auto c : shorter_sets) {
+      c.insert(x);
+      all_sets.push_back(c);
+    }
+  }
+  auto const dense = [](auto const& x) { return to_dense(x, U{}).value(); };
+  for (auto const& e : all_events) {
+    auto const d = dense(e);
+    same(to_sparse(d) == e && to_sparse(inverse(d)) == inverse(e) && d.size() == e.size() && d.empty() == e.empty());
+    same(to_sparse(d.additions()) == e.additions() && to_sparse(d.subtractions()) == e.subtractions());
+    for (std::size_t const x : chosen) same(d(x) == e(x));
+    for (auto const& f : all_events)
+      same(to_sparse(compose(d, dense(f))) == compose(e, f) && (d == dense(f)) == (e == f));
+    for (auto const& c : all_sets) {
+      auto const r = apply(d, dense(c));
+      auto const expected = apply(e, c);
+      refuses(applicable(d, dense(c)) == applicable(e, c) && r.has_value() == expected.has_value());
+      if (r && expected) same(to_sparse(*r) == *expected);
+      if (!r && !expected) refuses(r.error() == expected.error());
+    }
+  }
+  for (auto const& c : all_sets)
+    for (auto const& d : all_sets) {
+      same(to_sparse(difference(dense(c), dense(d))) == difference(c, d));
+      same(to_sparse(unite(dense(c), dense(d))) == unite(c, d) && is_subset(dense(c), dense(d)) == is_subset(c, d));
+      same(to_sparse(intersect(dense(c), dense(d))) == intersect(c, d) &&
+           to_sparse(subtract(dense(c), dense(d))) == subtract(c, d));
+      auto const made = rota::dense_event<U>::make(dense(c), dense(d));
+      auto const expected = sparse_event::make(c, d);
+      refuses(made.has_value() == expected.has_value());
+      if (made && expected) same(to_sparse(*made) == *expected);
+      if (!made && !expected) refuses(made.error() == expected.error());
+    }
+  EXPECT_EQ(to_dense(sparse_event::addition(65), U{}).error().witness, 65u);
+}
+
 // Runs -------------------------------------------------------------------------------------------------------------------------
 
 std::vector<event> bracketings(std::vector<event> const& run, std::size_t first, std::size_t last) {
@@ -495,9 +558,9 @@ struct words {
 using number_event = rota::event<std::uint32_t>;
 using number_delta = rota::delta<std::uint32_t>;
 
-number_event random_event(words& next, std::size_t n) {
+number_event random_event(words& next, std::size_t n, std::size_t range) {
   std::map<std::uint32_t, bool> signs;
-  while (signs.size() < n) signs[static_cast<std::uint32_t>(next() % (3 * n))] = next() % 2 == 0;
+  while (signs.size() < n) signs[static_cast<std::uint32_t>(next() % range)] = next() % 2 == 0;
   rota::small_vector<rota::signed_atom<std::uint32_t>, 8> entries;
   for (auto const& [x, plus] : signs) entries.push_back({x, plus ? rota::sign::plus : rota::sign::minus});
   return number_event::from_entries(std::move(entries));
@@ -511,8 +574,9 @@ TEST(every_size, composes_adds_differs_and_applies_pointwise) {
   words next;
   for (std::size_t const m : {0u, 1u, 2u, 7u, 8u, 9u, 16u, 31u, 64u, 200u, 1000u})
     for (std::size_t const n : {0u, 1u, 3u, 8u, 17u, 33u, 64u, 65u, 127u, 500u, 1000u}) {
-      auto const e = random_event(next, m);
-      auto const f = random_event(next, n);
+      auto const range = 3 * std::max(m, n) + 1;  // one for both, so that a short one lies all over a long one
+      auto const e = random_event(next, m, range);
+      auto const f = random_event(next, n, range);
       numbers sum;
       for (auto const& x : e) sum[x.atom] += to_int(x.value);
       for (auto const& x : f) sum[x.atom] += to_int(x.value);

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 namespace rota::detail {
 
@@ -27,10 +28,32 @@ struct plane_storage<U, Planes> {
   using type = std::array<word, Planes * words_for(U::size())>;
 };
 
+/// The universe of a value, which leaves the empty one behind when it is moved from. Nothing where the type knows it.
+template <atom_universe U>
+struct held_universe {
+  U value{};
+
+  constexpr explicit held_universe(U const& u) : value(u) {}
+  held_universe(held_universe const&) = default;
+  held_universe& operator=(held_universe const&) = default;
+  constexpr held_universe(held_universe&& other) noexcept : value(std::exchange(other.value, U{})) {}
+  constexpr held_universe& operator=(held_universe&& other) noexcept {
+    value = std::exchange(other.value, U{});
+    return *this;
+  }
+  friend bool operator==(held_universe const&, held_universe const&) = default;
+};
+template <fixed_universe U>
+struct held_universe<U> {
+  static constexpr U value{};
+
+  constexpr explicit held_universe(U const&) {}
+  friend bool operator==(held_universe const&, held_universe const&) = default;
+};
+
 /// `Planes` subsets of a universe: bit i % 64 of word i / 64 of a plane tells whether atom i is in it.
 ///
-/// Class invariant: bits beyond the universe are zero. Moved from, a set or event of run-time size may be assigned to or
-/// destroyed, nothing else.
+/// Class invariant: bits beyond the universe are zero. Moved from, one of run-time size is over the empty universe.
 template <atom_universe U, std::size_t Planes>
 class bit_planes {
 public:
@@ -39,7 +62,7 @@ public:
       : bit_planes(universe, [](std::size_t) { return std::array<word, Planes>{}; }) {}
   /// With the words that `words_at(i)` gives for word i of each plane. @pre none has a bit beyond the universe
   template <std::invocable<std::size_t> F>
-  constexpr bit_planes(U const& universe, F&& words_at) : universe_(universe) {
+  constexpr bit_planes(U const& universe, F&& words_at) : universe_{universe} {
     std::size_t const n = words();
     auto const fill = [&](word* out) {
       for (std::size_t i = 0; i < n; ++i) {
@@ -55,11 +78,19 @@ public:
     }
   }
 
-  [[nodiscard]] constexpr U const& universe() const noexcept { return universe_; }
+  [[nodiscard]] constexpr U const& universe() const noexcept { return universe_.value; }
   /// The number of words of one plane.
-  [[nodiscard]] constexpr std::size_t words() const noexcept { return words_for(universe_.size()); }
+  [[nodiscard]] constexpr std::size_t words() const noexcept { return words_for(universe().size()); }
   [[nodiscard]] constexpr word const* plane(std::size_t which) const noexcept {
     return words_.data() + which * words();
+  }
+  /// Whether no plane has a bit beyond the universe.
+  [[nodiscard]] constexpr bool within_universe() const noexcept {
+    std::size_t const used = universe().size() % 64;
+    if (used == 0) return true;
+    for (std::size_t which = 0; which < Planes; ++which)
+      if (plane(which)[words() - 1] >> used != 0) return false;
+    return true;
   }
   [[nodiscard]] constexpr bool test(std::size_t which, std::size_t i) const noexcept {
     return (plane(which)[i / 64] >> (i % 64) & 1) != 0;
@@ -73,7 +104,7 @@ public:
   friend bool operator==(bit_planes const&, bit_planes const&) = default;
 
 private:
-  [[no_unique_address]] U universe_{};
+  [[no_unique_address]] held_universe<U> universe_;
   typename plane_storage<U, Planes>::type words_;  // filled by every constructor
 };
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace rota {
 
@@ -25,12 +26,19 @@ struct multiple {
   friend auto operator<=>(multiple const&, multiple const&) = default;
 };
 
-/// What stands for ℤ: signed integers, or an exact big integer.
+/// What stands for ℤ: signed integers, or an exact big integer, which has numbers, an order, sums and products.
 ///
-/// Refuses unsigned types, which hold no −1, so that ι would wrap; and floating point, whose sums depend on the brackets.
+/// Refuses unsigned types, which hold no −1, so that ι would wrap; floating point, whose sums depend on the brackets; text,
+/// pointers and enumerations, which do not multiply; and integers that are bounded and no C++ integers, such as __int128
+/// in strict mode, whose overflow nobody could check.
 template <class T>
 concept integer_coefficient =
-    std::regular<T> && std::totally_ordered<T> && !std::unsigned_integral<T> && !std::floating_point<T>;
+    std::regular<T> && std::totally_ordered<T> && !std::unsigned_integral<T> && !std::floating_point<T> &&
+    (std::signed_integral<T> || std::is_class_v<T>) && requires(T const& a, T const& b) {
+      T{-1};
+      { a + b } -> std::convertible_to<T>;
+      { a* b } -> std::convertible_to<T>;
+    };
 
 /// A finitely supported function Atoms → ℤ: an element of the free abelian group ℤ^(Atoms).
 ///

@@ -56,6 +56,7 @@ public:
   [[nodiscard]] static constexpr dense_atom_set from_words(U const& universe, F&& word_at) {
     dense_atom_set c;
     c.bits_ = planes(universe, [&](std::size_t i) { return std::array{word_at(i)}; });
+    ROTA_ASSERT(c.bits_.within_universe());
     return c;
   }
 

@@ -86,6 +86,7 @@ public:
   [[nodiscard]] static constexpr dense_event from_words(U const& universe, F&& words_at) {
     dense_event e{planes(universe, std::forward<F>(words_at))};
     for (std::size_t i = 0; i < e.plus().size(); ++i) ROTA_ASSERT((e.plus()[i] & e.minus()[i]) == 0);
+    ROTA_ASSERT(e.bits_.within_universe());
     return e;
   }
 

@@ -37,20 +37,26 @@ namespace detail {
 
 /// Feeds a name or number, word by word, into the code of an atom. Specialise for identifiers that are neither
 /// enumerations, integers, nor `strong_id`s of those: `static constexpr void feed(T const&, Sink& sink)`, where
-/// `sink(std::uint64_t)` takes a word and the words determine the value.
+/// `sink(std::uint64_t)` takes a word. No value's words may begin another's, so that words of several names in a row still
+/// determine each: for names of any length, say, the length first.
 template <class T>
 struct atom_encoding;
+
+/// A name, number or atom with an encoding into words.
+template <class T>
+concept encodable = requires(T const& x, void (*sink)(std::uint64_t)) { atom_encoding<T>::feed(x, sink); };
 
 template <class T>
   requires std::integral<T> || std::is_enum_v<T>
 struct atom_encoding<T> {
   static constexpr void feed(T const& x, auto&& sink) { sink(static_cast<std::uint64_t>(x)); }
 };
-template <class Tag, class Rep>
+template <class Tag, encodable Rep>
 struct atom_encoding<strong_id<Tag, Rep>> {
   static constexpr void feed(strong_id<Tag, Rep> const& x, auto&& sink) { atom_encoding<Rep>::feed(x.value, sink); }
 };
 template <vocabulary V>
+  requires encodable<typename V::agent> && encodable<typename V::plan> && encodable<typename V::task>
 struct atom_encoding<in<V>> {
   static constexpr void feed(in<V> const& x, auto&& sink) {
     atom_encoding<typename V::agent>::feed(x.agent, sink);
@@ -61,8 +67,7 @@ struct atom_encoding<in<V>> {
 
 /// An atom with an encoding into words.
 template <class T>
-concept encodable_atom =
-    ordered_atom<T> && requires(T const& x, void (*sink)(std::uint64_t)) { atom_encoding<T>::feed(x, sink); };
+concept encodable_atom = ordered_atom<T> && encodable<T>;
 
 /// r(x) ≠ 0, a fixed mix of the encoding of x: the code of a generator.
 template <encodable_atom Atom>

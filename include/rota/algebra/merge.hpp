@@ -74,11 +74,11 @@ constexpr Entry* merge_into(Entry const* x, Entry const* x_end, Entry const* y, 
   for (; y != y_end; ++y) {
     std::ptrdiff_t reach = 1;
     while (reach < x_end - x && x[reach].atom < y->atom) reach *= 2;
-    auto const* const place = std::lower_bound(x + reach / 2, std::min(x + reach, x_end), y->atom,
+    auto const* const place = std::lower_bound(x + reach / 2, x + std::min(reach, x_end - x), y->atom,
                                                [](Entry const& entry, auto const& key) { return entry.atom < key; });
     out = std::copy(x, place, out);
     x = place;
-    bool const partner = x != x_end && x->atom == y->atom;
+    bool const partner = x != x_end && !(y->atom < x->atom);
     if (!partner || x->value == y->value) *out++ = *y;
     x += partner;
   }

@@ -22,7 +22,7 @@ struct no_run {
 /// e₁∘…∘eₙ in any brackets, for a run: events that are consecutively applicable from some set; else where they are not.
 ///
 /// The paper's use of composition, and the condition that makes it sound: at each atom the nonzero signs alternate. Then
-/// every bracketing of Def. 4 is this event, it is the sum of the ι(eᵢ), and it is applicable wherever e₁ starts a run.
+/// every bracketing of Def. 4 is this event, it is the sum of the ι(eᵢ), and it is applicable wherever the run is.
 /// The order of the events matters. O(N log N) for N entries in all.
 template <ordered_atom Atom>
 [[nodiscard]] constexpr result<event<Atom>, no_run<Atom>> compose_run(std::span<event<Atom> const> events) {

@@ -20,16 +20,13 @@ struct structure<event<Atom>> {
   static constexpr bool commutative = true;
 };
 
-/// As `event`. The identity has no name where only a value knows the universe.
-template <atom_universe U>
+/// As `event`, where the type determines the universe. Else composition is partial and the type no magma: events of two
+/// universes do not compose.
+template <fixed_universe U>
 struct structure<dense_event<U>> {
   using type = dense_event<U>;
   static constexpr type combine(type const& e, type const& f) { return compose(e, f); }
-  static constexpr type identity()
-    requires fixed_universe<U>
-  {
-    return {};
-  }
+  static constexpr type identity() { return {}; }
   static constexpr type inverse(type const& e) { return rota::inverse(e); }
   static constexpr bool commutative = true;
 };

@@ -30,7 +30,7 @@ public:
       : source_(std::move(source)), target_(std::move(target)) {}
   /// C → C.
   [[nodiscard]] static constexpr transition identity(atom_set<Atom> const& c) { return {c, c}; }
-  /// C → e·C, or the least atom at which e is not applicable. O(|e|·|C|).
+  /// C → e·C, or the least atom at which e is not applicable. O(|e| + |C|).
   [[nodiscard]] static constexpr result<transition, inapplicable<Atom>> make(atom_set<Atom> const& c,
                                                                              event<Atom> const& e) {
     auto target = apply(e, c);

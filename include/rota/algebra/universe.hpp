@@ -60,6 +60,7 @@ struct index_universe {
 
 /// Names of one sort, strictly ascending, such as `name_list<task::attack, task::defend>`.
 template <auto... Names>
+  requires(sizeof...(Names) > 0)
 struct name_list {
   static constexpr std::array names{Names...};
   static_assert(std::adjacent_find(names.begin(), names.end(), [](auto const& x, auto const& y) { return !(x < y); }) ==
