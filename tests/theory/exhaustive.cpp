@@ -392,6 +392,12 @@ TEST(dense_event, is_the_sparse_one_in_every_operation) {
     }
   }
   auto const dense = [](auto const& x) { return to_dense(x, U{}).value(); };
+  for (auto const& e : all_events)
+    for (auto const& f : all_events)
+      for (auto const& g : all_events) {
+        same(to_sparse(non_associating_atoms(dense(e), dense(f), dense(g))) == non_associating_atoms(e, f, g));
+        same(associates(dense(e), dense(f), dense(g)) == associates(e, f, g));
+      }
   for (auto const& e : all_events) {
     auto const d = dense(e);
     same(to_sparse(d) == e && to_sparse(inverse(d)) == inverse(e) && d.size() == e.size() && d.empty() == e.empty());

@@ -147,6 +147,22 @@ template <atom_universe U>
                                     });
 }
 
+/// The atoms at which (e∘f)∘g and e∘(f∘g) differ: e and g have opposite signs, and f has any.
+template <atom_universe U>
+[[nodiscard]] constexpr dense_atom_set<U> non_associating_atoms(dense_event<U> const& e, dense_event<U> const& f,
+                                                                dense_event<U> const& g) {
+  ROTA_ASSERT(e.universe() == f.universe() && f.universe() == g.universe());
+  return dense_atom_set<U>::from_words(e.universe(), [&](std::size_t i) {
+    auto const opposite = (e.plus()[i] & g.minus()[i]) | (e.minus()[i] & g.plus()[i]);
+    return opposite & (f.plus()[i] | f.minus()[i]);
+  });
+}
+/// (e∘f)∘g = e∘(f∘g), decided by the sign criterion, without composing.
+template <atom_universe U>
+[[nodiscard]] constexpr bool associates(dense_event<U> const& e, dense_event<U> const& f, dense_event<U> const& g) {
+  return non_associating_atoms(e, f, g).empty();
+}
+
 /// (ϑ⁻, ϑ⁺): the only event that composes with e to the identity.
 template <atom_universe U>
 [[nodiscard]] constexpr dense_event<U> inverse(dense_event<U> const& e) {
