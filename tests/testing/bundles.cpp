@@ -62,6 +62,7 @@ TEST(refutation, is_the_same_for_the_same_seed) {
 }
 
 TEST(refutation, finds_a_generator_too_tame) {
+  if (detail::parameters().maxSuccess < 1000) GTEST_SKIP() << "so few cases are not judged";
   bundle laws("b");
   laws.add("l", "n ≥ 0", [] { interesting(*integer(0, 9).as("n") == 0, "zero"); }, {{"zero", 5}});
   EXPECT_TRUE(broken_laws(laws).empty()) << "one in ten is more than 5 %";

@@ -166,3 +166,27 @@ TEST(wrong_sign_function, one_model_for_each_law) {
 }
 
 }  // namespace
+
+/// The claim of the paper: Def. 4, said to be an abelian group.
+struct claimed_group {
+  rota::event<sample::atom> value;
+  friend bool operator==(claimed_group const&, claimed_group const&) = default;
+};
+template <>
+struct rota::structure<claimed_group> {
+  static claimed_group combine(claimed_group const& e, claimed_group const& f) { return {compose(e.value, f.value)}; }
+  static claimed_group identity() { return {}; }
+  static claimed_group inverse(claimed_group const& e) { return {rota::inverse(e.value)}; }
+  static constexpr bool associative = true;
+  static constexpr bool commutative = true;
+  static auto signs(claimed_group const& e) { return rota::testing::signs_of<structure<sample::event>>(e.value); }
+};
+template <>
+struct rc::Arbitrary<claimed_group> {
+  static Gen<claimed_group> arbitrary() {
+    return gen::map(gen::arbitrary<sample::event>(), [](sample::event const& e) { return claimed_group{e}; });
+  }
+};
+TEST(wrong_claim, that_events_are_a_group_is_refuted_by_associativity_alone) {
+  EXPECT_EQ(broken(rota::testing::laws_of<claimed_group>()), "associative");
+}

@@ -21,7 +21,7 @@ template <class Atom>
 struct sample_atoms;
 
 template <class Atom>
-  requires std::integral<Atom> || std::is_enum_v<Atom>
+  requires(std::integral<Atom> && !std::same_as<Atom, bool>) || std::is_enum_v<Atom>
 struct sample_atoms<Atom> {
   static constexpr Atom nth(std::size_t i) { return static_cast<Atom>(i); }
 };

@@ -13,13 +13,13 @@
 
 namespace rota::testing {
 
-/// The laws of the strongest structure that T has and claims; of allocation events, if it also has `signs`.
+/// The laws of the strongest structure that T has and claims; and those of allocation events, if it also has `signs`.
 template <class T>
 [[nodiscard]] bundle laws_of() {
   if constexpr (groupoid<T>)
     return groupoid_laws<T>();
   else if constexpr (requires(T const& x) { structure<T>::signs(x); })
-    return allocation_event_laws<T>();
+    return bundle("allocation_event").merge(structure_laws<T>()).merge(allocation_event_laws<T>());
   else
     return structure_laws<T>();
 }

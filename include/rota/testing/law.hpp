@@ -36,10 +36,14 @@ class bundle {
 public:
   explicit bundle(char const* name) : name_(name) {}
 
-  /// Adds what the parent has and this one has not.
+  /// Adds what the parent has and this one has not. @pre laws of one name are one law: their equations are the same
   bundle& merge(bundle const& parent) {
-    for (law const& l : parent.laws_)
-      if (!contains(l.name)) laws_.push_back(l);
+    for (law const& l : parent.laws_) {
+      auto const mine =
+          std::find_if(laws_.begin(), laws_.end(), [&](law const& other) { return other.name == l.name; });
+      ROTA_ASSERT(mine == laws_.end() || mine->equation == l.equation);
+      if (mine == laws_.end()) laws_.push_back(l);
+    }
     return *this;
   }
   /// Adds a law. @pre none here is called so

@@ -3,8 +3,9 @@
 /// The laws of structures with one total operation. `S` is the structure whose laws they are, `structure<T>` unless a
 /// test plugs in another, say a wrong one: so the same T serves for many.
 ///
-/// Bundles called `…_laws` hold axioms: for each, some model breaks it and nothing else. Those called `…_theorems` hold
-/// what follows, a second look at an implementation; a theorem falls with an axiom.
+/// Bundles called `…_laws` hold axioms, in their usual form: left and right, and the involution of the inverse, are said
+/// although they follow from others where the operation commutes or associates. Those called `…_theorems` hold what
+/// follows, a second look at an implementation; a theorem falls with an axiom.
 
 #include <rota/algebra/abelian_group.hpp>
 #include <rota/testing/law.hpp>
