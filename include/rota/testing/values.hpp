@@ -43,9 +43,13 @@ inline rc::Seq<std::vector<int>> smaller_values(std::vector<int> const& v) {
     auto const kinds = static_cast<std::size_t>(high - low + 1);
     std::vector<std::uint64_t> up_to(kinds);  // the weights, summed
     std::uint64_t total = 0;
-    for (std::size_t k = 0; k < kinds; ++k)
-      up_to[k] = total += (low + static_cast<int>(k) == 0 ? weights_of_zero : weights)[source.next() % 4];
-    std::vector<int> v(sizes[source.next() % 8]);
+    for (std::size_t k = 0; k < kinds; ++k) {
+      auto const which = source.next() % 4;  // by itself: as an index, g++ 12 under UBSan draws it twice
+      total += low + static_cast<int>(k) == 0 ? weights_of_zero[which] : weights[which];
+      up_to[k] = total;
+    }
+    auto const size = source.next() % 8;
+    std::vector<int> v(sizes[size]);
     for (int& x : v) {
       auto kind = source.next() % (total == 0 ? kinds : total);
       if (total != 0) {
