@@ -172,7 +172,7 @@ constexpr bool pairs_are_clamped_sums_with_all_laws_but_associativity() {
   }
   return true;
 }
-static_assert(pairs_are_clamped_sums_with_all_laws_but_associativity());
+static_assert(pairs_are_clamped_sums_with_all_laws_but_associativity(), "carrier.pairs");
 
 constexpr int failing_triples() {
   int failing = 0;
@@ -189,7 +189,7 @@ constexpr int failing_triples() {
       }
   return failing;
 }
-static_assert(failing_triples() == 4);
+static_assert(failing_triples() == 4, "carrier.exactly_four_of_27_triples_fail");
 
 // Def. 3 and 4 -----------------------------------------------------------------------------------------------------------
 
