@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 
 namespace rota::test {
-namespace {
+namespace alica_defects_test {
 
 std::string const tasks = R"({"id": 1, "tasks": [{"id": 2, "name": "A"}, {"id": 3, "name": "B"}]})";
 std::string const sound = R"({"id": 90, "name": "Sound", "entryPoints": [
@@ -394,5 +394,5 @@ TEST(alica_hostile, a_search_that_was_given_up_says_so) {
 
 TEST(alica_hostile, no_path_gives_an_empty_model) { EXPECT_EQ(load(std::vector<fs::path>{}), alica::model{}); }
 
-}  // namespace
+}  // namespace alica_defects_test
 }  // namespace rota::test

@@ -5,7 +5,7 @@
 #include <random>
 
 namespace rota::test {
-namespace {
+namespace alica_fuzz_test {
 
 std::vector<fs::path> shipped_files() {
   std::vector<fs::path> out;
@@ -114,5 +114,5 @@ TEST(alica_fuzz, real_files_cut_off_are_refused) {
   }
 }
 
-}  // namespace
+}  // namespace alica_fuzz_test
 }  // namespace rota::test

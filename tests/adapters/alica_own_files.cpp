@@ -5,7 +5,7 @@
 #include <algorithm>
 
 namespace rota::test {
-namespace {
+namespace alica_own_files_test {
 
 /// The model without what tells the formats apart: file names and formats.
 alica::model without_files(alica::model m) {
@@ -203,5 +203,5 @@ TEST(alica_own_files, ids_are_unique_per_root_only) {
   EXPECT_EQ(m.plans[1].entry_points[0].task_name, "T of two/etc/");
 }
 
-}  // namespace
+}  // namespace alica_own_files_test
 }  // namespace rota::test

@@ -5,7 +5,7 @@
 #include <map>
 
 namespace rota::test {
-namespace {
+namespace alica_real_files_test {
 
 constexpr auto no_limit = cardinality::unbounded;
 
@@ -225,5 +225,5 @@ TEST_F(alica_real_files, a_precondition_is_kept_as_text) {
   }
 }
 
-}  // namespace
+}  // namespace alica_real_files_test
 }  // namespace rota::test

@@ -10,7 +10,7 @@
 #include <map>
 
 namespace rota::test {
-namespace {
+namespace eigen_test {
 
 using V = runtime_vocabulary;
 using atom = in<V>;
@@ -108,5 +108,5 @@ TEST(eigen, a_vector_of_other_counts_is_no_event) {
   EXPECT_EQ(universe()(universe()[4]), 4);
 }
 
-}  // namespace
+}  // namespace eigen_test
 }  // namespace rota::test

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <vector>
 
+namespace action_test {
+
 namespace {
 
 using namespace universe;
@@ -101,3 +103,5 @@ constexpr bool action_at_compile_time() {
 static_assert(action_at_compile_time());
 
 }  // namespace
+
+}  // namespace action_test

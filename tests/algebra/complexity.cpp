@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+namespace complexity_test {
+
 namespace {
 
 /// An atom that counts how often it is compared.
@@ -80,3 +82,5 @@ TEST(complexity, the_bound_rejects_a_quadratic_composition) {
 }
 
 }  // namespace
+
+}  // namespace complexity_test

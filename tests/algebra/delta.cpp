@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+namespace delta_test {
+
 namespace {
 
 using namespace universe;
@@ -298,3 +300,5 @@ constexpr bool group_at_compile_time() {
 static_assert(group_at_compile_time());
 
 }  // namespace
+
+}  // namespace delta_test

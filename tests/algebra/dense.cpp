@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+namespace dense_test {
+
 namespace {
 
 using namespace universe;
@@ -324,3 +326,5 @@ TEST(dense, one_word_allocates_nothing_whatever_it_does) {
   EXPECT_TRUE(right);
   EXPECT_EQ(allocations, 0u);
 }
+
+}  // namespace dense_test

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+namespace event_test {
+
 namespace {
 
 using namespace universe;
@@ -367,3 +369,5 @@ TEST(event_death, entries_out_of_order_or_zero_are_asserted) {
   EXPECT_DEATH((void)rota::event<int>::from_entries(entries{{1, sign::zero}}), "zero");
 }
 #endif
+
+}  // namespace event_test

@@ -14,6 +14,8 @@
 #include <string>
 #include <utility>
 
+namespace structures_test {
+
 namespace {
 
 using universe::atom;
@@ -78,3 +80,5 @@ constexpr bool a_run_composes() {
 static_assert(a_run_composes());
 
 }  // namespace
+
+}  // namespace structures_test

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace rota::test {
-namespace {
+namespace allocate_test {
 
 using nlohmann::json;
 
@@ -420,5 +420,5 @@ TEST_F(rota_allocate, attack_play_gets_the_optimum_of_enumeration) {
   EXPECT_LT(none, 30);
 }
 
-}  // namespace
+}  // namespace allocate_test
 }  // namespace rota::test

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 namespace rota::test {
-namespace {
+namespace check_test {
 
 using nlohmann::json;
 
@@ -105,5 +105,5 @@ TEST_F(rota_check, accounts_for_every_real_file) {
       << r.output.substr(r.output.rfind('\n', r.output.size() - 2) + 1);
 }
 
-}  // namespace
+}  // namespace check_test
 }  // namespace rota::test

@@ -5,7 +5,7 @@
 #include <set>
 
 namespace rota::test {
-namespace {
+namespace playing_test {
 
 using nlohmann::json;
 
@@ -125,5 +125,5 @@ TEST_F(rota_reproduce, misuse_is_one_line) {
   EXPECT_EQ(rota_program({"reproduce", "--help"}).status, 0);
 }
 
-}  // namespace
+}  // namespace playing_test
 }  // namespace rota::test

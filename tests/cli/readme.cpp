@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace rota::test {
-namespace {
+namespace readme_test {
 
 using readme = program_test;
 
@@ -38,5 +38,5 @@ TEST_F(readme, shows_what_the_program_prints) {
   EXPECT_EQ(ran.output, shown);
 }
 
-}  // namespace
+}  // namespace readme_test
 }  // namespace rota::test

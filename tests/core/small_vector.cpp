@@ -17,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+namespace small_vector_test {
+
 namespace {
 
 enum class op {
@@ -327,3 +329,5 @@ TEST(small_vector_death, misuse_is_asserted) {
   EXPECT_DEATH(v.pop_back(), "size_ > 0");
 }
 #endif
+
+}  // namespace small_vector_test

@@ -21,6 +21,8 @@
 #include <utility>
 #include <vector>
 
+namespace values_test {
+
 namespace {
 
 // Result --------------------------------------------------------------------------------------------------------------
@@ -269,3 +271,5 @@ static_assert(std::is_trivially_copyable_v<rota::in<soccer>> && sizeof(rota::in<
 static_assert(!comparable<rota::in<soccer>, rota::in_state<soccer>>, "project first");
 
 }  // namespace
+
+}  // namespace values_test

@@ -8,6 +8,8 @@
 
 #include <map>
 
+namespace optimum_test {
+
 namespace {
 
 using namespace small_world;
@@ -205,3 +207,5 @@ TEST(best_allocation, flow_and_tree_agree) {
 }
 
 }  // namespace
+
+}  // namespace optimum_test

@@ -9,6 +9,8 @@
 
 #include <map>
 
+namespace reallocation_test {
+
 namespace {
 
 using namespace small_world;
@@ -157,3 +159,5 @@ TEST(reallocate, a_spent_budget_keeps_a_valid_allocation_and_says_so) {
 }
 
 }  // namespace
+
+}  // namespace reallocation_test

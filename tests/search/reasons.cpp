@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+namespace reasons_test {
+
 namespace {
 
 using namespace small_world;
@@ -220,3 +222,5 @@ TEST(best_allocation, additive_is_polynomial) {  // ALICA's defect 7: 16 x 8 too
 }
 
 }  // namespace
+
+}  // namespace reasons_test

@@ -4,6 +4,8 @@
 
 #include <map>
 
+namespace detection_test {
+
 namespace {
 
 using namespace rota;
@@ -118,3 +120,5 @@ TEST(simulation, reigns_end_and_the_greatest_stamp_leads) {
 }
 
 }  // namespace
+
+}  // namespace detection_test

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <sstream>
 
+namespace evaluation_test {
+
 namespace {
 
 using namespace rota;
@@ -253,3 +255,5 @@ TEST(evaluation, a_team_that_cannot_hear_still_plays) {
 }
 
 }  // namespace
+
+}  // namespace evaluation_test

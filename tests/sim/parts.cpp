@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+namespace parts_test {
+
 namespace {
 
 using namespace rota;
@@ -190,3 +192,5 @@ TEST(statistics, percentiles_are_nearest_ranks) {
 }
 
 }  // namespace
+
+}  // namespace parts_test

@@ -9,6 +9,8 @@
 #include <map>
 #include <variant>
 
+namespace agent_test {
+
 using rota::decision_reason;
 using rota::message_case;
 using rota::milliseconds;
@@ -775,3 +777,5 @@ TEST_F(agent_test, a_steady_deliberation_allocates_nothing) {
 }
 
 }  // namespace
+
+}  // namespace agent_test

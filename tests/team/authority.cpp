@@ -10,6 +10,8 @@
 #include <tuple>
 #include <vector>
 
+namespace authority_test {
+
 using rota::claim_outcome;
 using rota::milliseconds;
 
@@ -259,3 +261,5 @@ TEST(authority, one_round_without_loss_settles_on_the_greatest_claimant) {
 }
 
 }  // namespace
+
+}  // namespace authority_test

@@ -8,6 +8,8 @@
 
 #include <optional>
 
+namespace monitor_test {
+
 using rota::milliseconds;
 
 namespace {
@@ -274,3 +276,5 @@ TEST(cycle_monitor, senders_are_independent) {
 }
 
 }  // namespace
+
+}  // namespace monitor_test

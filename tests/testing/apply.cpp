@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace {
+namespace apply_test {
 
 using namespace rota::testing;
 using rota::sign;
@@ -123,4 +123,4 @@ TEST(wrong_run, one_model_for_each_law) {
   EXPECT_EQ(broken(run_laws<blames_the_first_two>()), "compose_run_refuses_the_rest");
 }
 
-}  // namespace
+}  // namespace apply_test

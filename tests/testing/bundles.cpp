@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace bundles_test {
 
 using namespace rota::testing;
 
@@ -114,23 +114,25 @@ struct small {
   friend bool operator==(small, small) = default;
 };
 
-}  // namespace
+}  // namespace bundles_test
 
 template <>
-struct rota::structure<small> {
+struct rota::structure<bundles_test::small> {
+  using small = bundles_test::small;
   static small combine(small x, small y) { return {std::max(x.value, y.value)}; }
   static small identity() { return {}; }
   static constexpr bool associative = true;
   static constexpr bool commutative = true;
 };
 template <>
-struct rc::Arbitrary<small> {
+struct rc::Arbitrary<bundles_test::small> {
+  using small = bundles_test::small;
   static Gen<small> arbitrary() {
     return gen::map(rota::testing::integer(0, 9), [](int n) { return small{n}; });
   }
 };
 
-namespace {
+namespace bundles_test {
 
 [[maybe_unused]] bool const one_line = register_laws<small>("commutative_monoid");
 
@@ -146,4 +148,4 @@ TEST(register_laws, makes_each_claimed_law_a_test_of_its_own) {
                                       "structure.right_identity", "structure.well_defined"}));
 }
 
-}  // namespace
+}  // namespace bundles_test

@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-namespace {
+namespace deltas_test {
 
 using namespace rota::testing;
 using sample::atom;
@@ -67,4 +67,4 @@ TEST(wrong_extension, one_model_for_each_law) {
   EXPECT_EQ(broken(extension_laws<extends_to_zero>()), "agrees_on_generators");
 }
 
-}  // namespace
+}  // namespace deltas_test

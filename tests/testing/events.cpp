@@ -11,7 +11,7 @@
 #include <map>
 #include <vector>
 
-namespace {
+namespace events_test {
 
 using namespace rota::testing;
 using sample::atom;
@@ -103,10 +103,11 @@ struct compares_notes {
   static auto signs(noted const& x) { return signs_of<compares_notes>(x.e); }
 };
 
-}  // namespace
+}  // namespace events_test
 
 template <>
-struct rc::Arbitrary<padded> {
+struct rc::Arbitrary<events_test::padded> {
+  using padded = events_test::padded;
   static Gen<padded> arbitrary() {
     return rota::testing::made_of<padded>(-1, 1, [](std::vector<int> const& v) {
       padded e;
@@ -117,21 +118,23 @@ struct rc::Arbitrary<padded> {
   }
 };
 template <>
-struct rc::Arbitrary<statement> {
+struct rc::Arbitrary<events_test::statement> {
+  using statement = events_test::statement;
   static Gen<statement> arbitrary() {
     return gen::map(rota::testing::integer(-2, 2), [](int n) { return statement{n}; });
   }
 };
 template <>
-struct rc::Arbitrary<noted> {
+struct rc::Arbitrary<events_test::noted> {
+  using noted = events_test::noted;
   static Gen<noted> arbitrary() {
     return rota::testing::made_of<noted>(-1, 1, [](std::vector<int> const& v) {
-      return noted{rota::testing::event_with<atom>(v), static_cast<int>(v.size()) % 2};
+      return noted{rota::testing::event_with<sample::atom>(v), static_cast<int>(v.size()) % 2};
     });
   }
 };
 
-namespace {
+namespace events_test {
 
 TEST(wrong_event, one_model_for_each_law) {
   EXPECT_EQ(broken(event_laws<event, by_table<clamped>>()), "");
@@ -165,7 +168,7 @@ TEST(wrong_sign_function, one_model_for_each_law) {
   EXPECT_EQ(broken(sign_function_laws<event, by_table<wrapped>>()), "composition");
 }
 
-}  // namespace
+}  // namespace events_test
 
 /// The claim of the paper: Def. 4, said to be an abelian group.
 struct claimed_group {

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace {
+namespace maps_test {
 
 using namespace rota::testing;
 using rota::fingerprint;
@@ -94,22 +94,24 @@ struct ends_anywhere : labels_add {
   static arrow inverse(arrow t) { return {t.from, t.to, -t.label}; }
 };
 
-}  // namespace
+}  // namespace maps_test
 
 template <>
-struct rota::testing::arrows<arrow> {
+struct rota::testing::arrows<maps_test::arrow> {
+  using arrow = maps_test::arrow;
   static rc::Gen<arrow> from(bool o) {
     return rc::gen::map(integer(-1, 4), [o](int n) { return arrow{o, n % 2 != 0, n / 2}; });
   }
 };
 template <>
-struct rc::Arbitrary<arrow> {
+struct rc::Arbitrary<maps_test::arrow> {
+  using arrow = maps_test::arrow;
   static Gen<arrow> arbitrary() {
     return gen::map(rota::testing::integer(0, 11), [](int n) { return arrow{n % 2 != 0, n / 2 % 2 != 0, n / 4 - 1}; });
   }
 };
 
-namespace {
+namespace maps_test {
 
 TEST(wrong_groupoid, one_model_for_each_law) {
   EXPECT_EQ(broken(groupoid_laws<arrow, labels_add>()), "");
@@ -143,4 +145,4 @@ TEST(wrong_action, one_model_for_each_law) {
   EXPECT_EQ((broken(group_action_theorems<digit, digit, moves_forwards_only, integers>())), "inverse_undoes");
 }
 
-}  // namespace
+}  // namespace maps_test

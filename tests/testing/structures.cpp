@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <map>
 
-namespace {
+namespace structures_test {
 
 using namespace rota::testing;
 
@@ -38,16 +38,17 @@ struct reads_the_mark {
   static marked inverse(marked x) { return {-x.value, false}; }
 };
 
-}  // namespace
+}  // namespace structures_test
 
 template <>
-struct rc::Arbitrary<marked> {
+struct rc::Arbitrary<structures_test::marked> {
+  using marked = structures_test::marked;
   static Gen<marked> arbitrary() {
     return gen::map(rota::testing::integer(-4, 5), [](int n) { return marked{n / 2, n % 2 != 0}; });
   }
 };
 
-namespace {
+namespace structures_test {
 
 TEST(wrong_structure, well_defined) {
   EXPECT_EQ(broken(commutative_magma_laws<marked, reads_the_mark>()), "well_defined");
@@ -105,10 +106,11 @@ struct keeps_zero_counts {
   }
 };
 
-}  // namespace
+}  // namespace structures_test
 
 template <>
-struct rc::Arbitrary<counts> {
+struct rc::Arbitrary<structures_test::counts> {
+  using counts = structures_test::counts;
   static Gen<counts> arbitrary() {
     return gen::map(rota::testing::values(-2, 2), [](std::vector<int> const& v) {
       counts x;
@@ -119,7 +121,7 @@ struct rc::Arbitrary<counts> {
   }
 };
 
-namespace {
+namespace structures_test {
 
 TEST(wrong_structure, inverse) {
   EXPECT_EQ(broken(abelian_group_laws<digit, forgets_to_invert>()), "left_inverse right_inverse")
@@ -166,10 +168,11 @@ struct permutations {
   }
 };
 
-}  // namespace
+}  // namespace structures_test
 
 template <>
-struct rc::Arbitrary<permutation> {
+struct rc::Arbitrary<structures_test::permutation> {
+  using permutation = structures_test::permutation;
   static Gen<permutation> arbitrary() {
     return gen::map(rota::testing::integer(0, 5), [](int n) {
       permutation p;
@@ -179,7 +182,7 @@ struct rc::Arbitrary<permutation> {
   }
 };
 
-namespace {
+namespace structures_test {
 
 TEST(wrong_structure, commutative) {
   EXPECT_EQ(broken(group_laws<permutation, permutations>()), "");
@@ -224,4 +227,4 @@ TEST(wrong_structure, module) {
   EXPECT_EQ(broken(module_theorems<digit, scales_by_the_successor>()), "multiplies");
 }
 
-}  // namespace
+}  // namespace structures_test

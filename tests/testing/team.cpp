@@ -6,7 +6,7 @@
 #include <rota/testing/gtest.hpp>
 #include <rota/testing/team_laws.hpp>
 
-namespace {
+namespace team_test {
 
 using namespace rota::testing;
 using sample::atom;
@@ -100,4 +100,4 @@ TEST(wrong_cycle, one_model_for_each_law) {
   EXPECT_EQ(broken(cycle_theorems<asks_for_everybody>()), "restores_b_s_part");
 }
 
-}  // namespace
+}  // namespace team_test
