@@ -215,7 +215,7 @@ TEST(best_allocation, additive_is_polynomial) {  // ALICA's defect 7: 16 x 8 too
       auto const agents = static_cast<std::uint64_t>(n);
       auto const slots = static_cast<std::uint64_t>(m + 1);
       EXPECT_EQ(s->work.nodes, 0u);
-      EXPECT_LE(s->work.augmentations, agents + slots * 2);
+      EXPECT_LE(s->work.augmentations, 2 * (agents + slots));
       EXPECT_LE(s->work.relaxations, 3 * agents * slots * (slots + agents));
     }
   }

@@ -38,7 +38,7 @@ public:
     auto const first = work_.additive.solve(in);
     done.augmentations += first.augmentations;
     done.relaxations += first.relaxations;
-    if (first.end != dense::additive_end::optimal) {
+    if (!first.found()) {
       explain(first);
       return refuse();
     }
@@ -144,7 +144,7 @@ private:
       }
       if (may_idle) work_.utility[a * slots + tasks.size()] = 0;
     }
-    if (n != 0 && greatest > static_cast<std::uint64_t>(dense::max_total) / n) {
+    if (!dense::fits(n, slots, greatest)) {
       refusal_.fault = utility_fault::out_of_range;
       refusal_.why = no_plan_reason::utility_refused;
       return false;

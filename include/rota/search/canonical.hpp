@@ -1,0 +1,170 @@
+#pragma once
+
+#include <rota/search/slot_graph.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rota::dense {
+
+/// Whether an optimum is the only one, and if not, the lexicographically smallest (agent → slot) of all.
+///
+/// Optima differ by cycles of tight arcs, whichever optimal prices are taken. So where the tight arcs between slots and sink
+/// have no cycle, there is one optimum: O(s²). Otherwise, for each agent in order, with those before it fixed: the
+/// smallest slot that is tight for it and from which later agents can make room becomes its own. O(n·s + c·s²/64), c the
+/// agents that have a choice; memory O(s²).
+class canonical_choice {
+public:
+  /// @pre `graph` is balanced
+  void make(slot_graph& graph) {
+    if (unique(graph)) return;
+    ++resolved_;
+    nodes_ = graph.sink() + 1;
+    words_ = (nodes_ + 63) / 64;
+    movers_.assign(nodes_ * nodes_, 0);
+    before_.assign(nodes_ * words_, 0);
+    instance const& in = graph.problem();
+    for (row_index a = 0; a < in.agents; ++a)
+      if (in.takes_part(a)) count(graph, a, +1);
+    for (row_index a = 0; a < in.agents; ++a) {
+      if (!in.takes_part(a) || on_no_cycle(graph.home(a))) continue;
+      count(graph, a, -1);
+      fix(graph, a);
+    }
+  }
+
+  /// How often there was more than one optimum.
+  [[nodiscard]] std::uint64_t resolved() const noexcept { return resolved_; }
+
+private:
+  [[nodiscard]] bool unique(slot_graph& graph) {
+    auto const slots = graph.slots();
+    heads_.clear();
+    begin_.assign(slots + 1, 0);
+    degree_.assign(slots + 1, 0);
+    for (std::size_t j = 0; j < slots; ++j) {
+      auto const add = [&](std::size_t k) {
+        heads_.push_back(static_cast<slot>(k));
+        ++degree_[k];
+      };
+      graph.for_each_tight(j, add);
+      if (may_give(graph, j)) add(graph.sink());
+      if (may_get(graph, j)) ++degree_[j];
+      begin_[j + 1] = static_cast<std::uint32_t>(heads_.size());
+    }
+    // Strip what nothing leads to; what remains lies on cycles or behind them.
+    queue_.clear();
+    for (std::size_t v = 0; v <= slots; ++v)
+      if (degree_[v] == 0) queue_.push_back(static_cast<slot>(v));
+    for (std::size_t i = 0; i < queue_.size(); ++i) {
+      auto const v = queue_[i];
+      auto const strip = [&](std::size_t k) {
+        if (--degree_[k] == 0) queue_.push_back(static_cast<slot>(k));
+      };
+      if (v == graph.sink()) {
+        for (std::size_t k = 0; k < slots; ++k)
+          if (may_get(graph, k)) strip(k);
+      } else {
+        for (auto arc = begin_[v]; arc < begin_[v + 1]; ++arc) strip(heads_[arc]);
+      }
+    }
+    return queue_.size() == slots + 1;
+  }
+  [[nodiscard]] bool on_no_cycle(std::size_t v) const { return degree_[v] == 0; }
+
+  /// Whether slot k may trade a place with the sink at no cost.
+  [[nodiscard]] static bool may_give(slot_graph const& graph, std::size_t k) {
+    return graph.price(k) == graph.price(graph.sink()) && graph.may_open(k);
+  }
+  [[nodiscard]] static bool may_get(slot_graph const& graph, std::size_t k) {
+    return graph.price(k) == graph.price(graph.sink()) && graph.may_close(k);
+  }
+
+  [[nodiscard]] static bool tight(slot_graph const& graph, row_index a, std::size_t k) {
+    instance const& in = graph.problem();
+    auto const j = graph.home(a);
+    return k != j && in.at(a, k) - in.at(a, j) + graph.price(j) == graph.price(k);
+  }
+  /// Adds agent a to the movers of the arcs it could use, or takes it out.
+  void count(slot_graph const& graph, row_index a, int change) {
+    std::size_t const j = graph.home(a);
+    if (on_no_cycle(j)) return;
+    for (std::size_t k = 0; k < graph.slots(); ++k) {
+      if (!tight(graph, a, k)) continue;
+      auto& movers = movers_[j * nodes_ + k];
+      movers += static_cast<std::uint32_t>(change);
+      auto const bit = std::uint64_t{1} << j % 64;
+      auto& word = before_[k * words_ + j / 64];
+      word = movers != 0 ? word | bit : word & ~bit;
+    }
+  }
+
+  /// The smallest slot for agent a, whom `count` has forgotten, as later agents can arrange it.
+  void fix(slot_graph& graph, row_index a) {
+    std::size_t const home = graph.home(a);
+    std::size_t k = 0;
+    while (k < home && !tight(graph, a, k)) ++k;
+    if (k == home) return;
+    find_ways(graph, home);
+    while (k < home && !(way_[k] != no_slot && tight(graph, a, k))) ++k;
+    if (k == home) return;
+    graph.take(a);
+    graph.put(a, static_cast<slot>(k));
+    while (k != home) {
+      std::size_t const next = way_[k];
+      if (next == graph.sink()) {
+        graph.open_place(k);
+      } else if (k == graph.sink()) {
+        graph.close_place(next);
+      } else {
+        auto b = graph.first(k);
+        while (b <= a || !tight(graph, b, next)) b = graph.next(b);
+        count(graph, b, -1);
+        graph.take(b);
+        graph.put(b, static_cast<slot>(next));
+        count(graph, b, +1);
+      }
+      k = next;
+    }
+  }
+
+  /// way_[v] ← the next node on a tight way v → … → home of counted movers, or no_slot.
+  void find_ways(slot_graph const& graph, std::size_t home) {
+    way_.assign(nodes_, no_slot);
+    way_[home] = static_cast<slot>(home);
+    queue_.assign(1, static_cast<slot>(home));
+    auto const visit = [&](std::size_t v, std::size_t next) {
+      if (way_[v] != no_slot) return;
+      way_[v] = static_cast<slot>(next);
+      queue_.push_back(static_cast<slot>(v));
+    };
+    for (std::size_t i = 0; i < queue_.size(); ++i) {
+      std::size_t const to = queue_[i];
+      if (to == graph.sink()) {
+        for (std::size_t v = 0; v < graph.slots(); ++v)
+          if (may_give(graph, v)) visit(v, to);
+        continue;
+      }
+      if (may_get(graph, to)) visit(graph.sink(), to);
+      for (std::size_t w = 0; w < words_; ++w)
+        for (auto bits = before_[to * words_ + w]; bits != 0; bits &= bits - 1)
+          visit(w * 64 + static_cast<std::size_t>(std::countr_zero(bits)), to);
+    }
+  }
+
+  std::vector<slot> heads_;  // of the tight arcs from slot j: those from begin_[j] to begin_[j + 1]
+  std::vector<std::uint32_t> begin_;
+  std::vector<std::uint32_t> degree_;  // tight arcs that lead to a node; 0 once stripped
+  std::vector<slot> queue_;
+  std::vector<slot> way_;
+  std::size_t nodes_ = 0;
+  std::size_t words_ = 0;
+  std::vector<std::uint32_t> movers_;  // [from][to]: agents not fixed yet that could move so
+  std::vector<std::uint64_t> before_;  // [to]: the nodes from which somebody could move there, as bits
+  std::uint64_t resolved_ = 0;
+};
+
+}  // namespace rota::dense

@@ -1,0 +1,212 @@
+#pragma once
+
+#include <rota/search/slot_graph.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace rota::dense {
+
+/// Where to begin: prices at which few agents have to move, and everybody where it is worth most at them.
+///
+/// Any prices will do for the result; good ones save most of the searches. Three openings:
+/// - few agents a slot: an auction. Agents bid in turn for their best slot, as far as their second best allows; a slot that
+///   is full raises its price to what its members bid least. Nobody is ever where it would not be.
+/// - one agent a slot, all to be filled: the same, but prices begin where one agent is content with each slot.
+/// - many agents a slot: prices from a quarter of the agents, and theirs from a quarter of these. Chosen by hash: a stride
+///   could meet the classes of equal agents.
+class opening {
+public:
+  /// Places everybody who takes part; false if somebody has no pair at all. @pre `graph` holds nobody
+  [[nodiscard]] bool play(slot_graph& graph, std::size_t agents, work_limit const& limit) {
+    homeless_ = slot_graph::nobody;
+    if (agents <= crowd * graph.slots()) {
+      auction(graph, agents);
+    } else {
+      sample(graph, agents, limit);
+    }
+    graph.open_places(agents);
+    return homeless_ == slot_graph::nobody;
+  }
+
+  /// The first agent without any pair, or `nobody`.
+  [[nodiscard]] row_index homeless() const noexcept { return homeless_; }
+
+private:
+  using value = slot_graph::value;
+  static constexpr std::size_t crowd = 16;  // agents a slot from which on a sample says more than an auction
+  static constexpr unsigned quarter = 2;    // as a shift
+
+  void place(slot_graph& graph, row_index a) {
+    if (!graph.place(a)) homeless_ = std::min(homeless_, a);
+  }
+
+  // Auction -----------------------------------------------------------------------------------------------------------
+
+  void auction(slot_graph& graph, std::size_t agents) {
+    instance const& in = graph.problem();
+    bid_.assign(in.agents, 0);
+    waiting_.clear();
+    bids_left_ = agents;
+    if (one_each(graph, agents)) choose_for_slots(graph);
+    for (row_index a = 0; a < in.agents; ++a)
+      if (in.takes_part(a) && graph.home(a) == no_slot)
+        for (auto next = a; next != slot_graph::nobody;) next = bid(graph, next);
+    graph.keep_ledgers();
+    for (auto const a : waiting_)
+      if (graph.home(a) == no_slot) place(graph, a);  // who waited may have bid again
+  }
+
+  /// Agent a goes to its best slot, or waits, or pushes somebody out, or meets a higher price. @return who bids next
+  row_index bid(slot_graph& graph, row_index a) {
+    auto const price = graph.prices();
+    auto const [best, second, j] = kernel::best_two(graph.problem().row(a), price.data(), graph.slots());
+    if (!graph.problem().present(a, j)) return wait(a);
+    bid_[a] = price[j] + std::min(best - second, max_reach);
+    if (graph.count(j) < graph.bounds(j).upper) {
+      graph.put(a, static_cast<slot>(j));
+      return slot_graph::nobody;
+    }
+    if (bids_left_ == 0 || graph.count(j) == 0) return wait(a);
+    --bids_left_;
+    auto const [rival, next] = least_bids(graph, j);
+    if (bid_[a] > bid_[rival]) {
+      graph.take(rival);
+      graph.put(a, static_cast<slot>(j));
+      price[j] = std::min(next, bid_[a]);
+      return rival;
+    }
+    if (bid_[rival] == price[j]) return wait(a);
+    price[j] = bid_[rival];
+    return a;
+  }
+  row_index wait(row_index a) {
+    waiting_.push_back(a);
+    return slot_graph::nobody;
+  }
+  struct least_bid {
+    row_index agent;
+    value next;  // the least bid of the others
+  };
+  [[nodiscard]] least_bid least_bids(slot_graph const& graph, std::size_t j) const {
+    least_bid found{graph.first(j), std::numeric_limits<value>::max()};
+    for (auto a = graph.next(found.agent); a != slot_graph::nobody; a = graph.next(a)) {
+      if (bid_[a] < bid_[found.agent]) {
+        found = {a, bid_[found.agent]};
+      } else {
+        found.next = std::min(found.next, bid_[a]);
+      }
+    }
+    return found;
+  }
+
+  /// Whether every slot takes one agent, and all are needed.
+  [[nodiscard]] static bool one_each(slot_graph const& graph, std::size_t agents) {
+    if (agents != graph.slots()) return false;
+    for (std::size_t k = 0; k < graph.slots(); ++k)
+      if (!(graph.bounds(k) == slot_bounds{1, 1})) return false;
+    return true;
+  }
+  /// Each slot costs what it is worth most to anybody, who gets it unless it has got another.
+  void choose_for_slots(slot_graph& graph) {
+    instance const& in = graph.problem();
+    auto const price = graph.prices().first(graph.slots());
+    std::fill(price.begin(), price.end(), absent);
+    fan_.assign(graph.slots(), 0);
+    for (row_index a = 0; a < in.agents; ++a)
+      if (in.takes_part(a)) kernel::raise(in.row(a), 0, a, price.data(), fan_.data(), graph.slots());
+    for (auto k = graph.slots(); k-- > 0;) {
+      auto const a = static_cast<row_index>(fan_[k]);
+      if (price[k] == absent) {
+        price[k] = 0;
+      } else if (graph.home(a) == no_slot) {
+        graph.put(a, static_cast<slot>(k));
+        bid_[a] = price[k];
+      }
+    }
+  }
+
+  // Sample ------------------------------------------------------------------------------------------------------------
+
+  void sample(slot_graph& graph, std::size_t agents, work_limit const& limit) {
+    bounds_.clear();
+    for (std::size_t k = 0; k < graph.slots(); ++k) bounds_.push_back(graph.bounds(k));
+    unsigned shift = 0;
+    while (agents >> shift >= 4 * graph.slots()) shift += quarter;
+    smallest_ = shift;
+    for (; shift > 0; shift -= quarter) {
+      auto const some = place_some(graph, shift);
+      for (std::size_t k = 0; k < graph.slots(); ++k) graph.set_bounds(k, scaled(bounds_[k], some, agents));
+      graph.open_places(some);
+      if (graph.balance(limit) == slot_graph::flow::interrupted) break;
+      graph.normalise();
+      graph.clear();
+    }
+    graph.clear();
+    for (std::size_t k = 0; k < graph.slots(); ++k) graph.set_bounds(k, bounds_[k]);
+    place_some(graph, 0);
+  }
+  static constexpr slot_bounds scaled(slot_bounds b, std::uint64_t some, std::uint64_t all) noexcept {
+    auto const upper = std::min(some, (b.upper * some + all - 1) / all);
+    return {static_cast<std::uint32_t>(std::min(b.lower * some / all, upper)), static_cast<std::uint32_t>(upper)};
+  }
+
+  /// One agent of 2^shift goes where it is worth most, most of them to rest there. @return how many they are
+  std::size_t place_some(slot_graph& graph, unsigned shift) {
+    instance const& in = graph.problem();
+    auto const price = std::as_const(graph).prices();
+    auto const margin = usual_margin(graph);
+    graph.let_rest(margin);
+    graph.keep_ledgers();
+    std::size_t some = 0;
+    for (row_index a = 0; a < in.agents; ++a) {
+      if (!in.takes_part(a) || !chosen(a, shift)) continue;
+      auto const [best, second, j] = kernel::best_two(in.row(a), price.data(), graph.slots());
+      if (!in.present(a, j)) {
+        if (shift == 0) homeless_ = std::min(homeless_, a);
+        continue;
+      }
+      ++some;
+      best - second >= margin&& graph.has_ledger(j) ? graph.rest(a, static_cast<slot>(j))
+                                                    : graph.put(a, static_cast<slot>(j));
+    }
+    return some;
+  }
+  /// By how much three of four agents prefer one slot to all others: as the smallest sample says.
+  [[nodiscard]] value usual_margin(slot_graph const& graph) {
+    instance const& in = graph.problem();
+    margins_.clear();
+    for (row_index a = 0; a < in.agents; ++a) {
+      if (!in.takes_part(a) || !chosen(a, smallest_)) continue;
+      auto const [best, second, j] = kernel::best_two(in.row(a), graph.prices().data(), graph.slots());
+      margins_.push_back(best - second);
+    }
+    if (margins_.empty()) return 0;
+    auto const at = margins_.begin() + static_cast<std::ptrdiff_t>(margins_.size() / 4);
+    std::nth_element(margins_.begin(), at, margins_.end());
+    return *at;
+  }
+  [[nodiscard]] static constexpr bool chosen(row_index a, unsigned shift) noexcept {
+    return mixed(a) <= ~std::uint32_t{0} >> shift;
+  }
+  static constexpr std::uint32_t mixed(std::uint32_t x) noexcept {
+    x = (x ^ x >> 16) * 0x7feb352du;
+    x = (x ^ x >> 15) * 0x846ca68bu;
+    return x ^ x >> 16;
+  }
+
+  row_index homeless_ = slot_graph::nobody;
+  std::size_t bids_left_ = 0;
+  std::vector<value> bid_;  // the price up to which an agent would stay in its slot, at least
+  std::vector<row_index> waiting_;
+  std::vector<value> fan_;  // to whom a slot is worth most
+  std::vector<slot_bounds> bounds_;
+  unsigned smallest_ = 0;  // the sample of one agent in 2^smallest_ is solved first
+  std::vector<value> margins_;
+};
+
+}  // namespace rota::dense
