@@ -135,7 +135,9 @@ TEST(best_allocation, depends_on_no_listing_order_and_no_history) {
         random_problem(d, {.agents = 6, .tasks = 4, .plans = 3, .levels = 3, .general = true, .preconditions = true});
     built const first(raw);
     auto solve = [&](built const& b, rota::workspace& w) {
-      return best_allocation(rota::problem{b.type, b.team, b.beliefs, b.participants, idling_of(raw)}, w);
+      auto found = best_allocation(rota::problem{b.type, b.team, b.beliefs, b.participants, idling_of(raw)}, w);
+      if (found) found->work = {};  // what was done may depend on what was done before
+      return found;
     };
     auto const before = solve(first, used);
     d.shuffle(raw.members);
@@ -143,8 +145,12 @@ TEST(best_allocation, depends_on_no_listing_order_and_no_history) {
     for (auto& p : raw.plans) d.shuffle(p.tasks);
     built const second(raw);
     rota::workspace fresh;
-    RC_ASSERT(solve(second, fresh) == before);
-    RC_ASSERT(solve(second, used) == before);
+    auto same = [&](auto const& found) {
+      if (found.has_value() != before.has_value()) return false;
+      return found ? *found == *before : found.error().plans == before.error().plans;
+    };
+    RC_ASSERT(same(solve(second, fresh)));
+    RC_ASSERT(same(solve(second, used)));
   }));
 }
 
@@ -158,9 +164,10 @@ TEST(best_allocation, flow_and_tree_agree) {
                                      std::optional<std::int64_t>) override {
       return sum;
     }
-    std::optional<std::int64_t> bound(std::span<rota::dense::slot const> prefix, std::int64_t sum) override {
+    std::int64_t bound(std::span<rota::dense::slot const> prefix, std::int64_t sum) override {
       return sum + suffix[prefix.size()];
     }
+    bool hopeless(std::span<rota::dense::slot const>) override { return false; }
   } oracle;
   int feasible = 0;
   int stuck = 0;
@@ -188,7 +195,7 @@ TEST(best_allocation, flow_and_tree_agree) {
       oracle.suffix[a] = hopeless ? 0 : oracle.suffix[a + 1] + most;
     }
     auto const fast = flow.solve(in);
-    auto const slow = tree.solve(in, oracle, ~std::uint64_t{0});
+    auto const slow = tree.solve(in, oracle);
     // The tree also counts as a leaf the empty assignment, whose lower bounds it leaves to its caller.
     if (n == 0) return;
     RC_ASSERT(slow.complete);

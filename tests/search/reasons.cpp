@@ -189,7 +189,7 @@ TEST(best_allocation, of_a_plan_type_is_its_best_plan_not_its_first) {  // ALICA
   ASSERT_TRUE(s);
   EXPECT_EQ(s->plan, names::plan(3));
   EXPECT_EQ(s->utility, 5.0);
-  EXPECT_EQ(s->runner_up, (rota::runner_up<names>{names::plan(2), 3.0}));
+  EXPECT_EQ(s->runner_up, (rota::runner_up<names>{names::plan(2), 3.0, 2.0}));
 }
 
 TEST(best_allocation, additive_is_polynomial) {  // ALICA's defect 7: 16 x 8 took it more than a minute

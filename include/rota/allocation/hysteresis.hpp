@@ -6,9 +6,11 @@
 
 namespace rota {
 
-/// The gain in utility that a running allocation must be beaten by: it stays while U(best) ≤ U(current) + h.
+/// The gain in utility that a running allocation must be beaten by: it stays while
+/// U(best) − change costs ≤ U(current) + h, h = absolute + relative·|U(current)|.
 struct hysteresis {
   std::optional<double> absolute{};  ///< unset: the running plan's own `hysteresis()`; @pre not negative, not NaN
+  double relative = 0;               ///< a share of the current utility; @pre not negative, not NaN
 
   friend bool operator==(hysteresis const&, hysteresis const&) = default;
 };

@@ -68,6 +68,9 @@ template <vocabulary V, class Names = numbered>
   case clause::utility:
     if (v.fault == utility_fault::negative) return "the utility of " + plan() + " is " + std::to_string(v.value);
     if (!v.about_atom) return "the utility of " + plan() + " " + to_string(v.fault);
+    if (v.about_pair)
+      return "the utility of " + agent() + " on " + task() + " together with agent " + name(v.other.agent) +
+             " on task " + name(v.other.task) + " " + to_string(v.fault);
     return "the utility of " + agent() + " on " + task() + " " + to_string(v.fault);
   case clause::forbidden_pair: return agent() + " must not take on " + task();
   case clause::team_size:

@@ -35,7 +35,8 @@ struct violation {
   typename V::plan plan{};          ///< the plan p against which the judgement was made
   bool about_atom = false;          ///< whether `atom` is the witness, or the whole allocation is
   in<V> atom{};                     ///< 0, foreign_task, stranger, role, 4, forbidden_pair, 6 (a term's fault)
-  in<V> other{};                    ///< 4: the agent's second atom; may differ in state only
+  in<V> other{};                    ///< 4: the agent's second atom; may differ in state only. 6: of a pair
+  bool about_pair = false;          ///< 6: whether `atom` and `other` together are the witness
   typename V::state state{};        ///< 4: state of `atom`, where states were given
   typename V::state other_state{};  ///< 4: state of `other`, where states were given
   typename V::agent agent{};        ///< idle_forbidden; and the agent of `atom`
@@ -180,31 +181,16 @@ std::optional<fixed_utility> judge_functions(problem<V, Beliefs> const& problem,
     auto const holds = guarded([&] { return p.precondition()(problem.beliefs, atoms); });
     if (!holds || !*holds) report(clause::precondition, holds ? utility_fault::none : utility_fault::threw, 0);
   }
-  auto judged = [&](fixed_utility total) {
-    if (total.units < 0) report(clause::utility, utility_fault::negative, to_double(total));
-    return std::optional{total};
-  };
-  if (auto const* general = std::get_if<general_utility<V, Beliefs>>(&p.utility())) {
-    auto const value = value_of<V, Beliefs>(*general, problem.beliefs, atoms);
-    if (value) return judged(value.value());
-    report(clause::utility, value.error(), 0);
-    return std::nullopt;
-  }
-  auto const& additive = *std::get_if<additive_utility<V, Beliefs>>(&p.utility());
-  fixed_utility total;
-  bool defined = true;
-  for (in<V> const& x : atoms) {
-    auto const term = term_of<V, Beliefs>(additive, x.agent, x.task, problem.beliefs);
-    auto fault = term ? utility_fault::none : term.error();
-    if (term && !checked_add(total, term.value())) fault = utility_fault::out_of_range;
-    if (fault == utility_fault::none) continue;
-    defined = false;
-    auto w = at<V>(fault == utility_fault::forbidden_pair ? clause::forbidden_pair : clause::utility, p.id(), x);
-    w.fault = fault;
-    sink(w);
-  }
-  if (!defined) return std::nullopt;
-  return judged(total);
+  auto const total = value<V, Beliefs>(problem, p, atoms, [&](utility_refusal<V> const& why) {
+    if (!why.atom) return report(clause::utility, why.why, 0);
+    auto const c = why.why == utility_fault::forbidden_pair ? clause::forbidden_pair : clause::utility;
+    auto v = at<V>(c, p.id(), *why.atom);
+    v.fault = why.why;
+    if (why.other) v.other = *why.other, v.about_pair = true;
+    sink(v);
+  });
+  if (total && total->units < 0) report(clause::utility, utility_fault::negative, to_double(*total));
+  return total;
 }
 
 /// Every clause of section 3 on C relative to p but (4) on states. `sink` takes each violation.

@@ -2,6 +2,7 @@
 
 #include <rota/model/allocation.hpp>
 #include <rota/model/cardinality.hpp>
+#include <rota/model/utility.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,10 +30,6 @@ struct plan_task {
   friend bool operator==(plan_task const&, plan_task const&) = default;
 };
 
-/// What a precondition or a utility may read of an allocation: its atoms, ascending by agent.
-template <vocabulary V = runtime_vocabulary>
-using allocation_view = std::span<in<V> const>;
-
 /// When Pre(p) must hold.
 enum class precondition_scope : bool {
   always,     ///< as long as the plan runs: Def. 1, the default
@@ -43,25 +40,18 @@ enum class precondition_scope : bool {
 template <vocabulary V, class Beliefs>
 using precondition = std::function<bool(Beliefs const&, allocation_view<V>)>;
 
-/// U_p as a sum over agents: the utility of one agent on one task; an idle agent counts 0. `nullopt` forbids the pair.
-///
-/// Must return finite numbers of magnitude at most `max_utility`; what it returns for a pair must not depend on the
-/// allocation.
-template <vocabulary V, class Beliefs>
-using additive_utility = std::function<std::optional<double>(typename V::agent, typename V::task, Beliefs const&)>;
-
-/// U_p as any function of the beliefs and a complete allocation.
-///
-/// `bound`, if given, must be at least the value of every complete allocation that extends the given partial one by
-/// tasks for the undecided agents (the others are decided, idle if they have no atom); it lets the search prune.
-template <vocabulary V, class Beliefs>
-struct general_utility {
-  std::function<double(Beliefs const&, allocation_view<V>)> value;
-  std::function<double(Beliefs const&, allocation_view<V>, std::span<typename V::agent const> undecided)> bound;
+/// What can be said about Pre(p) while some agents are undecided.
+enum class possibility : unsigned char {
+  no,       ///< it holds on no completion
+  perhaps,  ///< unknown
+  certain   ///< it holds on every completion
 };
 
+/// What a partial allocation says about Pre(p); the agents that are not undecided have their task, or idle. Lets a search
+/// leave what cannot come to hold.
 template <vocabulary V, class Beliefs>
-using utility = std::variant<additive_utility<V, Beliefs>, general_utility<V, Beliefs>>;
+using precondition_outlook =
+    std::function<possibility(Beliefs const&, allocation_view<V>, std::span<typename V::agent const> undecided)>;
 
 /// Refusal: what is wrong with the description of a plan.
 template <vocabulary V>
@@ -69,7 +59,8 @@ struct plan_defect {
   enum class kind : unsigned char {
     repeated_task,         ///< `task` is listed twice
     no_task,               ///< Tasks(p) is empty
-    missing_utility,       ///< the utility holds no function
+    missing_utility,       ///< the utility, or a part of it, holds no function
+    weight_not_finite,     ///< a weight is NaN or infinite
     threshold_not_finite,  ///< hysteresis is negative, NaN or infinite
   };
   kind what{};
@@ -85,6 +76,7 @@ struct plan_description {
   std::vector<plan_task<V>> tasks;
   rota::utility<V, Beliefs> utility;
   rota::precondition<V, Beliefs> precondition{};
+  precondition_outlook<V, Beliefs> outlook{};  ///< optional; must agree with `precondition`
   precondition_scope scope = precondition_scope::always;
   cardinality team_size{};  ///< how many agents the plan needs and bears in all
   double hysteresis = 0;    ///< gain in utility below which a running allocation stays (ALICA's utilityThreshold)
@@ -106,15 +98,8 @@ public:
     auto const twice = std::adjacent_find(d.tasks.begin(), d.tasks.end(),
                                           [](auto const& a, auto const& b) { return a.task == b.task; });
     if (twice != d.tasks.end()) return refused{plan_defect<V>{kind::repeated_task, twice->task}};
-    bool const callable = std::visit(
-        [](auto const& u) {
-          if constexpr (requires { u.value; })
-            return static_cast<bool>(u.value);
-          else
-            return static_cast<bool>(u);
-        },
-        d.utility);
-    if (!callable) return refused{plan_defect<V>{kind::missing_utility, {}}};
+    if (!callable<V, Beliefs>(d.utility)) return refused{plan_defect<V>{kind::missing_utility, {}}};
+    if (!weights_are_finite<V, Beliefs>(d.utility)) return refused{plan_defect<V>{kind::weight_not_finite, {}}};
     if (!(d.hysteresis >= 0) || !std::isfinite(d.hysteresis))
       return refused{plan_defect<V>{kind::threshold_not_finite, {}}};
     return plan{std::move(d)};
@@ -131,6 +116,7 @@ public:
   }
   [[nodiscard]] rota::utility<V, Beliefs> const& utility() const noexcept { return d_.utility; }
   [[nodiscard]] rota::precondition<V, Beliefs> const& precondition() const noexcept { return d_.precondition; }
+  [[nodiscard]] precondition_outlook<V, Beliefs> const& outlook() const noexcept { return d_.outlook; }
   [[nodiscard]] precondition_scope scope() const noexcept { return d_.scope; }
   [[nodiscard]] cardinality team_size() const noexcept { return d_.team_size; }
   [[nodiscard]] double hysteresis() const noexcept { return d_.hysteresis; }

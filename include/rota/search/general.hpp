@@ -1,15 +1,20 @@
 #pragma once
 
 #include <rota/search/instance.hpp>
+#include <rota/search/limits.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace rota::dense {
+
+/// A bound that bounds nothing.
+inline constexpr std::int64_t no_bound = std::numeric_limits<std::int64_t>::max();
 
 /// What a tree search asks about assignments.
 class tree_oracle {
@@ -18,81 +23,96 @@ public:
   /// utility over the instance; a value of at most `to_beat` is worth nothing, so the answer may be nothing as well.
   virtual std::optional<std::int64_t> leaf(std::span<slot const> assignment, std::int64_t sum,
                                            std::optional<std::int64_t> to_beat) = 0;
-  /// At least the value of every admissible completion of the prefix, or nothing if unknown.
-  virtual std::optional<std::int64_t> bound(std::span<slot const> prefix, std::int64_t sum) = 0;
+  /// At least the value of every admissible completion of the prefix, or `no_bound`.
+  virtual std::int64_t bound(std::span<slot const> prefix, std::int64_t sum) = 0;
+  /// Whether no completion of the prefix is admissible.
+  virtual bool hopeless(std::span<slot const> prefix) = 0;
+  /// As `leaf`, of an assignment that was left out: to see whether that was right.
+  virtual std::optional<std::int64_t> probe(std::span<slot const> assignment, std::int64_t sum) {
+    return leaf(assignment, sum, std::nullopt);
+  }
 
 protected:
   ~tree_oracle() = default;
 };
 
+/// Which part of the assignments a tree search has dealt with, and how. A search that is complete has dealt with all s^n.
+struct tree_account {
+  std::uint64_t nodes = 0;   ///< placements tried
+  std::uint64_t leaves = 0;  ///< complete assignments asked about
+  std::uint64_t pairs = 0;  ///< subtrees left: an absent pair, a full slot, or lower bounds that cannot be met any more
+  std::uint64_t bounded = 0;   ///< subtrees left: nothing in them could be better
+  std::uint64_t hopeless = 0;  ///< subtrees left: nothing in them is admissible
+  std::uint64_t mirrored = 0;  ///< subtrees left: the same with interchangeable agents swapped
+  std::uint64_t covered = 0;   ///< how many assignments all these hold, modulo `modulus`
+
+  static constexpr std::uint64_t modulus = (std::uint64_t{1} << 61) - 1;  // a prime, so that no s^n is 0
+
+  friend bool operator==(tree_account const&, tree_account const&) = default;
+};
+
+/// A bound that was less than the value of an assignment below it.
+struct refuted_bound {
+  std::size_t depth = 0;  ///< the prefix is the first `depth` agents of the assignment
+  std::int64_t bound = 0;
+  std::int64_t value = 0;
+};
+
+/// What a tree search may use besides the instance and the oracle.
+struct tree_options {
+  work_limit limit{};              ///< steps: placements
+  std::int64_t enough = no_bound;  ///< no admissible assignment is worth more: the first of this value ends the search
+  std::span<row_index const> twin{};  ///< of each agent one before it that it is interchangeable with, or itself
+  std::span<slot const> known{};      ///< an admissible assignment: what is worth less is not looked for
+  std::int64_t known_value = 0;
+  bool audit = false;  ///< at each subtree left for its bound, try one assignment in it
+};
+
 /// What a tree search found.
 struct tree_outcome {
-  bool found = false;       ///< `assignment()` is the best admissible one seen
-  bool complete = false;    ///< nothing was cut off by the budget: the best, or proof that there is none
-  std::int64_t value = 0;   ///< of the best
-  std::uint64_t nodes = 0;  ///< placements tried
+  bool found = false;             ///< `assignment()` is the best admissible one known
+  bool complete = false;          ///< nothing was cut off by the limit: the best, or proof that there is none
+  std::int64_t value = 0;         ///< of the best
+  std::int64_t bound = no_bound;  ///< no admissible assignment is worth more; = value if complete
+  tree_account account;
+  std::optional<refuted_bound> lie{};  ///< then neither `complete` nor `bound` can be relied on
 };
 
 /// Depth-first branch and bound over agents in order, slots in order; iterative, O(n·s) memory.
 ///
-/// Leaves come in lexicographic order and only a strict improvement replaces the best: hence the canonical rule of
-/// `additive_solver` holds here too. A subtree is left when its lower bounds cannot be filled any more, or when nothing
-/// in it can be better than the best. Every node counts against the budget.
+/// Leaves come in lexicographic order and only a strict improvement replaces the best: so of equally good assignments the
+/// lexicographically smallest is found. A subtree is left when its lower bounds cannot be filled any more, when nothing in it
+/// can be better than the best, when the oracle calls it hopeless, or when it is another one with interchangeable agents
+/// swapped: these take slots in ascending order. Every placement is a step of `work_limit`.
 class tree_solver {
 public:
-  /// Searches until done, until a leaf of value `enough` is found, or until `budget` nodes have been visited.
-  ///
-  /// @pre no admissible assignment is worth more than `enough`
-  tree_outcome solve(instance const& in, tree_oracle& oracle, std::uint64_t budget,
-                     std::int64_t enough = std::numeric_limits<std::int64_t>::max()) {
+  /// Searches until done, until a leaf is worth `enough`, or until the limit is met. @pre everybody takes part
+  tree_outcome solve(instance const& in, tree_oracle& oracle, tree_options const& options = {}) {
     prepare(in);
     tree_outcome out;
     out.complete = true;
-    if (in.agents == 0) {
+    known_ = !options.known.empty();
+    if (known_) {
+      out.found = true;
+      out.value = options.known_value;
+      std::copy(options.known.begin(), options.known.end(), best_.begin());
+    }
+    bound_[0] = oracle.bound({}, 0);
+    if (oracle.hopeless({})) {
+      leave(out.account.hopeless, 0, out);
+    } else if (in.agents == 0) {
       consider_leaf(oracle, 0, out);
-      return out;
+    } else {
+      descend(in, oracle, options, out);
     }
-    std::size_t depth = 0;
-    next_[0] = 0;
-    sum_[0] = 0;
-    for (;;) {
-      std::size_t k = next_[depth];
-      while (k < slots_ && (!in.present(depth, k) || count_[k] >= in.bounds[k].upper)) ++k;
-      if (k == slots_) {
-        if (depth == 0) return out;
-        undo(--depth);
-        continue;
-      }
-      next_[depth] = static_cast<slot>(k + 1);
-      if (out.nodes == budget) {
-        out.complete = false;
-        return out;
-      }
-      ++out.nodes;
-      place(depth, k);
-      std::int64_t const sum = sum_[depth] + in.at(depth, k);
-      bool keep = fillable(in, depth + 1);
-      if (keep && depth + 1 == in.agents) {
-        consider_leaf(oracle, sum, out);
-        if (out.found && out.value >= enough) return out;
-        keep = false;
-      }
-      if (keep && out.found) {
-        auto const bound = oracle.bound({assignment_.data(), depth + 1}, sum);
-        keep = !bound || *bound > out.value;
-      }
-      if (!keep) {
-        undo(depth);
-        continue;
-      }
-      ++depth;
-      next_[depth] = 0;
-      sum_[depth] = sum;
-    }
+    if (out.complete) out.bound = out.found ? out.value : std::numeric_limits<std::int64_t>::min();
+    return out;
   }
 
   /// The best assignment of the last search.
   [[nodiscard]] std::span<slot const> assignment() const noexcept { return best_; }
+  /// The assignment that `tree_outcome::lie` speaks of.
+  [[nodiscard]] std::span<slot const> refuter() const noexcept { return refuter_; }
 
 private:
   void prepare(instance const& in) {
@@ -100,13 +120,98 @@ private:
     slots_ = in.slots();
     assignment_.assign(in.agents, no_slot);
     best_.assign(in.agents, no_slot);
+    refuter_.assign(in.agents, no_slot);
     count_.assign(slots_, 0);
-    next_.assign(in.agents, 0);
-    sum_.assign(in.agents, 0);
+    next_.assign(in.agents + 1, 0);
+    sum_.assign(in.agents + 1, 0);
+    bound_.assign(in.agents + 1, no_bound);
+    below_.assign(in.agents + 1, 1);
     able_.assign((in.agents + 1) * slots_, 0);
-    for (std::size_t a = in.agents; a-- > 0;)
+    for (std::size_t a = in.agents; a-- > 0;) {
+      below_[a] = times_slots(below_[a + 1]);
       for (std::size_t s = 0; s < slots_; ++s)
         able_[a * slots_ + s] = able_[(a + 1) * slots_ + s] + (in.present(a, s) ? 1u : 0u);
+    }
+  }
+
+  void descend(instance const& in, tree_oracle& oracle, tree_options const& options, tree_outcome& out) {
+    auto const& limit = options.limit;
+    for (std::size_t depth = 0;;) {
+      std::size_t k = next_[depth];
+      while (k < slots_ && !open(in, options.twin, depth, k, out)) ++k;
+      if (k == slots_) {
+        if (depth == 0) return;
+        undo(--depth);
+        continue;
+      }
+      next_[depth] = static_cast<slot>(k + 1);
+      auto const nodes = out.account.nodes;
+      if (nodes >= limit.steps || (nodes % 1024 == 0 && limit.stop())) {
+        out.complete = false;
+        next_[depth] = static_cast<slot>(k);
+        out.bound = frontier(depth, out);
+        return;
+      }
+      ++out.account.nodes;
+      place(depth, k);
+      std::int64_t const sum = sum_[depth] + in.at(depth, k);
+      std::span<slot const> const prefix{assignment_.data(), depth + 1};
+      if (!fillable(in, depth + 1)) {
+        leave(out.account.pairs, depth + 1, out);
+      } else if (depth + 1 == in.agents) {
+        consider_leaf(oracle, sum, out);
+        if (out.found && !known_ && out.value >= options.enough) return;
+      } else if (oracle.hopeless(prefix)) {
+        leave(out.account.hopeless, depth + 1, out);
+      } else {
+        bound_[depth + 1] = std::min(bound_[depth], oracle.bound(prefix, sum));
+        if (out.found && (known_ ? bound_[depth + 1] < out.value : bound_[depth + 1] <= out.value)) {
+          leave(out.account.bounded, depth + 1, out);
+          if (options.audit && !out.lie) audit(in, oracle, depth + 1, sum, out);
+        } else {
+          ++depth;
+          next_[depth] = 0;
+          sum_[depth] = sum;
+          continue;
+        }
+      }
+      undo(depth);
+    }
+  }
+
+  /// Whether agent `depth` may be put into slot k now; if not, its subtree is accounted for.
+  bool open(instance const& in, std::span<row_index const> twin, std::size_t depth, std::size_t k, tree_outcome& out) {
+    if (!in.present(depth, k) || count_[k] >= in.bounds[k].upper) {
+      leave(out.account.pairs, depth + 1, out);
+      return false;
+    }
+    if (!twin.empty() && twin[depth] != depth && k < assignment_[twin[depth]]) {
+      leave(out.account.mirrored, depth + 1, out);
+      return false;
+    }
+    return true;
+  }
+  void leave(std::uint64_t& reason, std::size_t depth, tree_outcome& out) {
+    ++reason;
+    cover(depth, out);
+  }
+  void cover(std::size_t depth, tree_outcome& out) {
+    out.account.covered = (out.account.covered + below_[depth]) % tree_account::modulus;
+  }
+  [[nodiscard]] std::uint64_t times_slots(std::uint64_t x) const noexcept {
+    std::uint64_t product = 0;
+    for (std::uint64_t s = slots_; s != 0; s >>= 1) {  // by doubling, so that nothing overflows
+      if (s & 1) product = (product + x) % tree_account::modulus;
+      x = 2 * x % tree_account::modulus;
+    }
+    return product;
+  }
+  /// What may still lie in the subtrees that were not entered.
+  [[nodiscard]] std::int64_t frontier(std::size_t depth, tree_outcome const& out) const {
+    std::int64_t most = out.found ? out.value : std::numeric_limits<std::int64_t>::min();
+    for (std::size_t d = 0; d <= depth; ++d)
+      if (next_[d] < slots_) most = std::max(most, bound_[d]);
+    return most;
   }
 
   void place(std::size_t a, std::size_t s) {
@@ -131,20 +236,61 @@ private:
   }
 
   void consider_leaf(tree_oracle& oracle, std::int64_t sum, tree_outcome& out) {
-    auto const value = oracle.leaf(assignment_, sum, out.found ? std::optional{out.value} : std::nullopt);
-    if (!value || (out.found && *value <= out.value)) return;
+    ++out.account.leaves;
+    cover(assignment_.size(), out);
+    auto const worthless = known_ ? out.value - 1 : out.value;
+    auto const value = oracle.leaf(assignment_, sum, out.found ? std::optional{worthless} : std::nullopt);
+    if (!value) return;
+    compare(*value, assignment_.empty() ? 0 : assignment_.size() - 1, out);
+    if (out.found && *value <= worthless) return;
+    known_ = false;
     out.found = true;
     out.value = *value;
     std::copy(assignment_.begin(), assignment_.end(), best_.begin());
   }
 
+  /// A value found below the first `depth` agents must not exceed what was said of any of them.
+  void compare(std::int64_t value, std::size_t depth, tree_outcome& out) {
+    if (value <= bound_[depth] || out.lie) return;
+    depth = 0;
+    while (bound_[depth] >= value) ++depth;
+    out.lie = refuted_bound{depth, bound_[depth], value};
+    std::copy(assignment_.begin(), assignment_.end(), refuter_.begin());
+  }
+
+  /// Completes the prefix somehow, where slots that still need agents come first.
+  void audit(instance const& in, tree_oracle& oracle, std::size_t depth, std::int64_t sum, tree_outcome& out) {
+    std::size_t a = depth;
+    for (; a < in.agents; ++a) {
+      std::size_t choice = slots_;
+      for (std::size_t s = slots_; s-- > 0;)
+        if (in.present(a, s) && count_[s] < in.bounds[s].upper &&
+            (choice == slots_ || count_[s] < in.bounds[s].lower || count_[choice] >= in.bounds[choice].lower))
+          choice = s;
+      if (choice == slots_) break;
+      place(a, choice);
+      sum += in.at(a, choice);
+      if (!fillable(in, a + 1)) {
+        undo(a);
+        break;
+      }
+    }
+    if (a == in.agents)
+      if (auto const value = oracle.probe(assignment_, sum)) compare(*value, depth, out);
+    while (a-- > depth) undo(a);
+  }
+
   std::size_t slots_ = 0;
+  bool known_ = false;  // the best so far was given, and an equal one may still come first in order
   std::vector<slot> assignment_;
   std::vector<slot> best_;
+  std::vector<slot> refuter_;
   std::vector<std::uint32_t> count_;
   std::vector<slot> next_;
   std::vector<std::int64_t> sum_;
-  std::vector<std::uint32_t> able_;  // [a·s]: how many agents from a on may take each slot
+  std::vector<std::int64_t> bound_;   // of the first d agents, none greater than the one before
+  std::vector<std::uint64_t> below_;  // s^(n−d) modulo the modulus
+  std::vector<std::uint32_t> able_;   // [a·s]: how many agents from a on may take each slot
 };
 
 }  // namespace rota::dense

@@ -20,6 +20,8 @@ public:
 
   [[nodiscard]] bool operator()() const { return asks_ != nullptr && asks_(callable_); }
 
+  friend bool operator==(stop_request const&, stop_request const&) = default;
+
 private:
   bool (*asks_)(void const*) = nullptr;
   void const* callable_ = nullptr;
@@ -34,4 +36,36 @@ struct work_limit {
 };
 
 }  // namespace dense
+
+/// How much a search may do. Counted in steps, so that equal inputs give equal answers on every machine; who has a clock may
+/// set `stop`.
+struct search_budget {
+  /// Placements tried by branch and bound, over all plans of a type. Additive utilities without a precondition need none.
+  std::uint64_t nodes = std::uint64_t{1} << 20;
+  /// Arcs looked at for additive utilities, a plan. Enough for any team that decides within a tick.
+  std::uint64_t relaxations = std::numeric_limits<std::uint64_t>::max();
+  stop_request stop{};
+  /// Whether a user's bound is checked where it cuts: one of the allocations it leaves out is evaluated.
+#ifdef NDEBUG
+  bool audit = false;
+#else
+  bool audit = true;
+#endif
+
+  friend bool operator==(search_budget const&, search_budget const&) = default;
+};
+
+/// What a search did. Work, unlike an answer, may depend on what the workspace has seen before.
+struct search_work {
+  std::uint64_t nodes = 0;          ///< placements tried by branch and bound
+  std::uint64_t leaves = 0;         ///< complete allocations evaluated
+  std::uint64_t pruned = 0;         ///< subtrees left because nothing in them could be better, or valid
+  std::uint64_t searches = 0;       ///< shortest-path searches of the additive solver
+  std::uint64_t augmentations = 0;  ///< agents, or chains of agents, it moved
+  std::uint64_t relaxations = 0;    ///< arcs it looked at
+  std::uint64_t changed_rows = 0;   ///< agents whose utilities differ from the last time; all, where it began anew
+
+  friend bool operator==(search_work const&, search_work const&) = default;
+};
+
 }  // namespace rota

@@ -1,223 +1,192 @@
 #pragma once
 
-#include <rota/search/solution.hpp>
+#include <rota/search/formulation.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace rota::detail {
 
-/// The search for the best allocation of one plan: translates it into a dense instance and picks the solver.
+/// The search for the best allocation of one plan: what is best is U_p less change costs.
 ///
-/// Leaves the assignment in `workspace.candidate`.
+/// First the additive solver on what parts of U_p say of agents one by one: the optimum where there is nothing else, a proof
+/// that there is no allocation at all, or else prices that bound. Then, if need be, branch and bound. Leaves the
+/// assignment in `workspace::candidate`.
 template <vocabulary V, class Beliefs>
 class plan_search final : private dense::tree_oracle {
 public:
   using agent = typename V::agent;
   struct outcome {
-    std::optional<fixed_utility> utility;  ///< of the best valid allocation; otherwise see `refusal`
-    bool optimal = false;
+    std::optional<fixed_utility> utility{};  ///< U_p of the best valid allocation; otherwise see `refusal`
+    std::int64_t objective = 0;              ///< the same less change costs, in units
+    std::int64_t bound = 0;                  ///< no valid allocation has a greater objective
+    std::size_t changes = 0;
     plan_refusal<V> refusal{};
+    [[nodiscard]] bool optimal() const noexcept { return objective >= bound; }
   };
 
-  plan_search(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, bool running, workspace& w)
-      : problem_(problem),
-        plan_(p),
-        work_(w),
-        precondition_(p.precondition() && !(running && p.scope() == precondition_scope::entry_only)),
-        additive_(std::get_if<additive_utility<V, Beliefs>>(&p.utility())),
-        general_(std::get_if<general_utility<V, Beliefs>>(&p.utility())) {}
+  plan_search(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, workspace& w, plan_memory& memory)
+      : problem_(problem), plan_(p), work_(w), memory_(memory), form_(problem, p, memory, w.row) {
+    bool const running =
+        std::any_of(problem.current.begin(), problem.current.end(), [&](in<V> const& x) { return x.plan == p.id(); });
+    precondition_ = p.precondition() && !(running && p.scope() == precondition_scope::entry_only);
+    for_each_part<V, Beliefs>(p.utility(), [&](double, auto const& part) {
+      using part_type = std::remove_cvref_t<decltype(part)>;
+      coupled_ |=
+          std::same_as<part_type, general_utility<V, Beliefs>> || std::same_as<part_type, pairwise_utility<V, Beliefs>>;
+    });
+  }
 
-  outcome run(search_budget budget, search_work& done) {
-    if (!set_bounds() || !set_pairs()) return refuse();
-    dense::instance const in{problem_.participants.size(), work_.utility, work_.bounds};
-    auto const first = work_.additive.solve(in);
-    done.augmentations += first.augmentations;
-    done.relaxations += first.relaxations;
+  outcome run(search_budget const& budget, search_work& done) {
+    if (!form_.write()) return refuse();
+    note_current();
+    dense::instance in{problem_.participants.size(), memory_.keys, memory_.bounds};
+    in.unique = memory_.ties.unique();
+    auto const first = solve_additive(in, budget, done);
     if (!first.found()) {
       explain(first);
       return refuse();
     }
-    if (additive_ != nullptr) {
-      if (first.utility < 0) return negative(first.utility);
-      auto const assignment = work_.additive.assignment();
-      if (!precondition_ || leaf(assignment, first.utility, {})) return accept(assignment, first.utility, true);
-      set_suffix(in);
+    if (!coupled_) {
+      bool const settled = first.end == dense::additive_end::optimal && form_.change_cost() == 0;
+      if (settled && units(first.utility) < 0) return negative(units(first.utility));
+      auto const assignment = memory_.solver.assignment();
+      auto const value = leaf(assignment, first.utility, std::nullopt);
+      if (value && utility_of(assignment, units(first.utility)) >= 0)
+        return accept(assignment, units(first.utility), units(first.bound));
+    } else {
+      in.utility = memory_.units;
     }
-    auto const tree = additive_ != nullptr ? work_.tree.solve(in, *this, budget.nodes, first.utility)
-                                           : work_.tree.solve(in, *this, budget.nodes);
-    done.nodes += tree.nodes;
-    if (tree.found && tree.value >= 0) return accept(work_.tree.assignment(), tree.value, tree.complete);
-    if (!tree.complete) return refuse(no_plan_reason::search_incomplete);
-    if (tree.found) return negative(tree.value);
-    if (general_fault_) {
-      refusal_.fault = *general_fault_;
-      return refuse(no_plan_reason::utility_refused);
-    }
-    return refuse(precondition_threw_ ? no_plan_reason::precondition_threw : no_plan_reason::precondition_never_holds);
+    return branch(in, first, budget, done);
   }
 
   /// The first thing that is no utility.
   [[nodiscard]] std::optional<utility_refusal<V>> ignored() const {
-    if (ignored_) return ignored_;
-    if (general_fault_) return utility_refusal<V>{*general_fault_, {}};
-    return std::nullopt;
+    return form_.ignored() ? form_.ignored() : coupling_fault_;
   }
+  [[nodiscard]] std::optional<bound_lie<V>> const& lie() const noexcept { return lie_; }
 
 private:
   outcome refuse() {
-    refusal_.plan = plan_.id();
-    return {std::nullopt, false, refusal_};
+    outcome out;
+    out.refusal = form_.refusal();
+    out.refusal.plan = plan_.id();
+    out.bound = std::numeric_limits<std::int64_t>::min();
+    return out;
   }
   outcome refuse(no_plan_reason why) {
-    refusal_.why = why;
+    form_.refusal().why = why;
     return refuse();
   }
   outcome negative(std::int64_t units) {
-    refusal_.value = to_double({units});
+    form_.refusal().value = to_double({units});
     return refuse(no_plan_reason::negative_utility);
   }
-  outcome accept(std::span<dense::slot const> assignment, std::int64_t units, bool optimal) {
+  outcome accept(std::span<dense::slot const> assignment, std::int64_t objective, std::int64_t bound) {
     work_.candidate.assign(assignment.begin(), assignment.end());
-    return {fixed_utility{units}, optimal, {}};
-  }
-  bool fail(no_plan_reason why, std::size_t count, cardinality bounds) {
-    refusal_.why = why;
-    refusal_.count = count;
-    refusal_.bounds = bounds;
-    return false;
-  }
-
-  /// Cardinalities and team size as slot bounds; the team size bounds the idle slot from the other side.
-  bool set_bounds() {
-    std::size_t const n = problem_.participants.size();
-    std::uint64_t least = 0;
-    std::uint64_t most = 0;
-    work_.bounds.clear();
-    for (plan_task<V> const& t : plan_.tasks()) {
-      auto const upper = std::min<std::uint64_t>(t.bounds.is_bounded() ? t.bounds.max() : unlimited, n);
-      least += t.bounds.min();
-      most += t.bounds.is_bounded() ? t.bounds.max() : unlimited;
-      work_.bounds.push_back({t.bounds.min(), static_cast<std::uint32_t>(upper)});
-    }
-    cardinality const size = plan_.team_size();
-    std::uint64_t const size_max = size.is_bounded() ? size.max() : unlimited;
-    if (least > size_max) return fail(no_plan_reason::contradictory_cardinalities, least, size);
-    if (most < size.min()) return fail(no_plan_reason::contradictory_cardinalities, most, size);
-    std::uint64_t const needed = std::max<std::uint64_t>(least, size.min());
-    if (n < needed) return fail(no_plan_reason::too_few_agents, n, {clip(needed), cardinality::unbounded});
-    std::uint64_t const room = std::min(most, size_max);
-    if (problem_.idle == idling::forbidden && n > room)
-      return fail(no_plan_reason::too_many_agents, n, {0, clip(room)});
-    bool const may_idle = problem_.idle == idling::allowed;
-    work_.bounds.push_back({static_cast<std::uint32_t>(n - std::min<std::uint64_t>(n, size_max)),
-                            static_cast<std::uint32_t>(may_idle ? n - size.min() : 0)});
-    return true;
+    outcome out;
+    out.objective = objective;
+    out.bound = bound;
+    out.changes = changes_of(assignment);
+    out.utility = fixed_utility{utility_of(assignment, objective)};
+    return out;
   }
 
-  /// The utility matrix, with forbidden pairs absent.
-  bool set_pairs() {
-    auto const tasks = plan_.tasks();
-    std::size_t const n = problem_.participants.size();
-    std::size_t const slots = tasks.size() + 1;
-    bool const may_idle = work_.bounds[tasks.size()].upper > 0;
-    work_.utility.assign(n * slots, dense::absent);
-    std::uint64_t greatest = 0;
-    for (std::size_t a = 0; a < n; ++a) {
-      agent const who = problem_.participants[a];
-      ROTA_ASSERT(a == 0 || problem_.participants[a - 1] < who);
-      auto const* const r = problem_.members.role_of(who);
-      for (std::size_t s = 0; s < tasks.size() && r != nullptr; ++s) {
-        if (work_.bounds[s].upper == 0 || !r->permits(tasks[s].task)) continue;
-        std::int64_t units = 0;
-        if (additive_ != nullptr && !rate(who, tasks[s].task, units)) continue;
-        work_.utility[a * slots + s] = units;
-        auto const magnitude = static_cast<std::uint64_t>(units < 0 ? -units : units);
-        if (magnitude <= greatest) continue;
-        greatest = magnitude;
-        refusal_.agent = who;
-        refusal_.task = tasks[s].task;
-      }
-      if (may_idle) work_.utility[a * slots + tasks.size()] = 0;
-    }
-    if (!dense::fits(n, slots, greatest)) {
-      refusal_.fault = utility_fault::out_of_range;
-      refusal_.why = no_plan_reason::utility_refused;
-      return false;
-    }
-    refusal_.agent = {};
-    refusal_.task = {};
-    return every_task_served(n, slots) && every_agent_served(n, slots);
+  [[nodiscard]] std::int64_t units(std::int64_t keys) const { return memory_.ties.utility(keys); }
+
+  // Change costs --------------------------------------------------------------------------------------------------------
+
+  void note_current() {
+    work_.now.assign(problem_.participants.size(), static_cast<dense::slot>(plan_.tasks().size()));
+    if (problem_.current.empty()) return;
+    for (std::size_t a = 0; a < work_.now.size(); ++a) work_.now[a] = form_.current_slot(a);
+  }
+  [[nodiscard]] std::size_t changes_of(std::span<dense::slot const> assignment) const {
+    std::size_t changes = 0;
+    for (std::size_t a = 0; a < assignment.size(); ++a) changes += assignment[a] != work_.now[a];
+    return changes;
+  }
+  /// U_p from an objective.
+  [[nodiscard]] std::int64_t utility_of(std::span<dense::slot const> assignment, std::int64_t objective) const {
+    if (form_.change_cost() == 0) return objective;
+    return objective + form_.change_cost() * static_cast<std::int64_t>(changes_of(assignment));
   }
 
-  bool rate(agent who, typename V::task t, std::int64_t& units) {
-    auto const term = term_of<V, Beliefs>(*additive_, who, t, problem_.beliefs);
-    if (term) {
-      units = term.value().units;
-      return true;
-    }
-    if (term.error() != utility_fault::forbidden_pair && !ignored_)
-      ignored_ = utility_refusal<V>{term.error(), in<V>{who, plan_.id(), t}};
-    return false;
-  }
+  // Additive ------------------------------------------------------------------------------------------------------------
 
-  bool every_task_served(std::size_t n, std::size_t slots) {
-    for (std::size_t s = 0; s + 1 < slots; ++s) {
-      if (work_.bounds[s].lower == 0) continue;
-      std::size_t able = 0;
-      for (std::size_t a = 0; a < n; ++a) able += work_.utility[a * slots + s] != dense::absent;
-      if (able >= work_.bounds[s].lower) continue;
-      if (blame_utility()) return false;
-      refusal_.task = plan_.tasks()[s].task;
-      return fail(no_plan_reason::task_short, able, plan_.tasks()[s].bounds);
-    }
-    return true;
-  }
-
-  bool every_agent_served(std::size_t n, std::size_t slots) {
-    for (std::size_t a = 0; a < n; ++a) {
-      auto const row = work_.utility.begin() + static_cast<std::ptrdiff_t>(a * slots);
-      if (std::any_of(row, row + static_cast<std::ptrdiff_t>(slots), [](auto u) { return u != dense::absent; }))
-        continue;
-      if (blame_utility()) return false;
-      refusal_.agent = problem_.participants[a];
-      refusal_.why = no_plan_reason::agent_without_task;
-      return false;
-    }
-    return true;
-  }
-
-  /// Where pairs were left out as faulty, that is the likelier reason than the cardinalities.
-  bool blame_utility() {
-    if (!ignored_) return false;
-    refusal_.why = no_plan_reason::utility_refused;
-    refusal_.fault = ignored_->why;
-    refusal_.agent = ignored_->atom->agent;
-    refusal_.task = ignored_->atom->task;
-    return true;
+  dense::additive_outcome const& solve_additive(dense::instance const& in, search_budget const& budget,
+                                                search_work& done) {
+    if (memory_.solved) return memory_.last;
+    dense::work_limit const limit{budget.relaxations, budget.stop};
+    memory_.last = memory_.solver.resolve(in, memory_.changed, limit);
+    memory_.seen = true;
+    memory_.solved = memory_.last.end != dense::additive_end::interrupted;
+    done.changed_rows += memory_.changed.size();
+    done.searches += memory_.last.searches;
+    done.augmentations += memory_.last.augmentations;
+    done.relaxations += memory_.last.relaxations;
+    return memory_.last;
   }
 
   void explain(dense::additive_outcome const& o) {
-    if (blame_utility()) return;
-    refusal_.why = no_plan_reason::pairs_contradict;
+    if (form_.blame_utility()) return;
+    auto& refusal = form_.refusal();
+    refusal.why = no_plan_reason::pairs_contradict;
     if (o.end == dense::additive_end::agent_stuck) {
-      refusal_.agent = problem_.participants[o.witness];
+      refusal.agent = problem_.participants[o.witness];
     } else if (o.witness < plan_.tasks().size()) {
-      refusal_.task = plan_.tasks()[o.witness].task;
+      refusal.task = plan_.tasks()[o.witness].task;
     }
   }
 
-  void set_suffix(dense::instance const& in) {
-    work_.suffix.assign(in.agents + 1, 0);
-    for (std::size_t a = in.agents; a-- > 0;) {
-      std::int64_t most = dense::absent;
-      for (std::size_t s = 0; s < in.slots(); ++s) most = std::max(most, in.at(a, s));
-      work_.suffix[a] = work_.suffix[a + 1] + most;
+  // Branch and bound ----------------------------------------------------------------------------------------------------
+
+  outcome branch(dense::instance const& in, dense::additive_outcome const& first, search_budget const& budget,
+                 search_work& done) {
+    price_in(in.agents, in.slots());
+    dense::tree_options options;
+    options.limit = {budget.nodes, budget.stop};
+    options.audit = budget.audit;
+    if (!coupled_ && first.end == dense::additive_end::optimal && form_.change_cost() == 0)
+      options.enough = first.utility;
+    if (find_twins(in)) options.twin = work_.twin;
+    auto const tree = work_.tree.solve(in, *this, options);
+    done.nodes += tree.account.nodes;
+    done.leaves += tree.account.leaves;
+    done.pruned += tree.account.pairs + tree.account.bounded + tree.account.hopeless + tree.account.mirrored;
+    if (tree.lie) note_lie(in, *tree.lie);
+    bool const proved = tree.complete && !tree.lie;
+    auto const as_units = [&](std::int64_t value) { return coupled_ ? value : units(value); };
+    if (tree.found) {
+      auto const objective = as_units(tree.value);
+      if (utility_of(work_.tree.assignment(), objective) >= 0)
+        return accept(work_.tree.assignment(), objective,
+                      proved                          ? objective
+                      : tree.lie                      ? dense::no_bound
+                      : tree.bound == dense::no_bound ? tree.bound
+                                                      : as_units(tree.bound));
+      if (proved) return negative(objective);
     }
+    if (!proved) {
+      auto out = refuse(no_plan_reason::search_incomplete);
+      out.bound = tree.lie || tree.bound == dense::no_bound ? dense::no_bound : as_units(tree.bound);
+      return out;
+    }
+    if (most_negative_) return negative(*most_negative_);
+    if (coupling_fault_) {
+      auto& refusal = form_.refusal();
+      refusal.fault = coupling_fault_->why;
+      if (coupling_fault_->atom)
+        refusal.agent = coupling_fault_->atom->agent, refusal.task = coupling_fault_->atom->task;
+      return refuse(no_plan_reason::utility_refused);
+    }
+    return refuse(precondition_threw_ ? no_plan_reason::precondition_threw : no_plan_reason::precondition_never_holds);
   }
 
   allocation_view<V> decode(std::span<dense::slot const> assignment) {
@@ -230,49 +199,176 @@ private:
 
   std::optional<std::int64_t> leaf(std::span<dense::slot const> assignment, std::int64_t sum,
                                    std::optional<std::int64_t> to_beat) override {
-    if (additive_ != nullptr && to_beat && sum <= *to_beat) return std::nullopt;
+    if (!coupled_ && to_beat && sum <= *to_beat) return std::nullopt;
+    if (!coupled_ && !precondition_ && form_.change_cost() == 0) return sum;
     auto const view = decode(assignment);
     if (precondition_) {
       auto const holds = guarded([&] { return plan_.precondition()(problem_.beliefs, view); });
       if (!holds) precondition_threw_ = true;
       if (!holds || !*holds) return std::nullopt;
     }
-    if (additive_ != nullptr) return sum;
-    auto const value = value_of<V, Beliefs>(*general_, problem_.beliefs, view);
-    if (value) return value.value().units;
-    if (!general_fault_) general_fault_ = value.error();
+    auto value = sum;
+    if (coupled_) {
+      auto const whole = couple(view, sum);
+      if (!whole) return std::nullopt;
+      value = *whole;
+    }
+    if (form_.change_cost() == 0) return value;  // negative totals are judged at the end
+    auto const utility = utility_of(assignment, coupled_ ? value : units(value));
+    if (utility >= 0) return value;
+    most_negative_ = std::max(most_negative_.value_or(utility), utility);
     return std::nullopt;
   }
+  std::optional<std::int64_t> probe(std::span<dense::slot const> assignment, std::int64_t sum) override {
+    auto const kept = std::pair{coupling_fault_, precondition_threw_};
+    auto const negative = most_negative_;
+    auto const value = leaf(assignment, sum, std::nullopt);
+    std::tie(coupling_fault_, precondition_threw_) = kept;
+    most_negative_ = negative;
+    return value;
+  }
 
-  std::optional<std::int64_t> bound(std::span<dense::slot const> prefix, std::int64_t sum) override {
-    if (additive_ != nullptr) return sum + work_.suffix[prefix.size()];
-    if (!general_->bound) return std::nullopt;
+  /// The objective, from what it is by agents alone: adds what parts of U_p say of pairs and of the whole.
+  std::optional<std::int64_t> couple(allocation_view<V> view, std::int64_t alone) {
+    fixed_utility total{alone};
+    bool counts = true;
+    auto add = [&](result<fixed_utility, utility_fault> const& term, std::optional<in<V>> x, std::optional<in<V>> y) {
+      auto const why = !term                              ? term.error()
+                       : checked_add(total, term.value()) ? utility_fault::none
+                                                          : utility_fault::out_of_range;
+      if (why == utility_fault::none) return;
+      counts = false;
+      if (!coupling_fault_) coupling_fault_ = utility_refusal<V>{why, x, y};
+    };
+    for_each_part<V, Beliefs>(plan_.utility(), [&](double weight, auto const& part) {
+      using part_type = std::remove_cvref_t<decltype(part)>;
+      if constexpr (std::same_as<part_type, general_utility<V, Beliefs>>) {
+        if (counts) add(value_of<V, Beliefs>(problem_, weight, part, view), std::nullopt, std::nullopt);
+      } else if constexpr (std::same_as<part_type, pairwise_utility<V, Beliefs>>) {
+        for (std::size_t i = 0; i < view.size() && counts; ++i)
+          for (std::size_t j = i + 1; j < view.size() && counts; ++j)
+            add(term_of<V, Beliefs>(problem_, weight, part, view[i], view[j]), view[i], view[j]);
+      }
+    });
+    return counts ? std::optional{total.units} : std::nullopt;
+  }
+
+  bool hopeless(std::span<dense::slot const> prefix) override {
+    if (!precondition_ || !plan_.outlook()) return false;
     auto const view = decode(prefix);
     auto const rest = problem_.participants.subspan(prefix.size());
-    auto const b = guarded([&] { return general_->bound(problem_.beliefs, view, rest); });
-    if (!b) return std::nullopt;
-    auto const fixed = quantise(*b);  // rounding is monotone, so it is still a bound
-    if (fixed) return fixed.value().units;
-    // Below the range nothing is admissible; above it, or for NaN, the bound says nothing.
-    if (*b < 0) return std::numeric_limits<std::int64_t>::min();
-    return std::nullopt;
+    auto const outlook = guarded([&] { return plan_.outlook()(problem_.beliefs, view, rest); });
+    return outlook && *outlook == possibility::no;
   }
 
-  static constexpr std::uint64_t unlimited = std::uint64_t{1} << 40;
-  static constexpr std::uint32_t clip(std::uint64_t n) {
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(n, cardinality::unbounded - 1));
+  /// What agents from one on add at most, at the prices of the slots: tight where the additive optimum is all there is.
+  void price_in(std::size_t agents, std::size_t slots) {
+    auto const price = memory_.solver.prices();
+    work_.most.assign(agents + 1, 0);
+    for (std::size_t k = 0; k < slots; ++k) {
+      auto const [lower, upper] = memory_.solver.bounds(k);
+      work_.most[agents] += price[k] * static_cast<std::int64_t>(price[k] > 0 ? upper : lower);
+    }
+    for (std::size_t a = agents; a-- > 0;) {
+      auto const* const row = memory_.keys.data() + a * slots;
+      auto const best = dense::kernel::best(row, price.data(), slots);
+      work_.most[a] = work_.most[a + 1] + row[best] - price[best];
+    }
+  }
+  [[nodiscard]] std::int64_t bound_alone(std::span<dense::slot const> prefix) const {
+    auto const slots = plan_.tasks().size() + 1;
+    auto const price = memory_.solver.prices();
+    auto most = work_.most[prefix.size()];
+    for (std::size_t a = 0; a < prefix.size(); ++a) most += memory_.keys[a * slots + prefix[a]] - price[prefix[a]];
+    return most;
+  }
+
+  std::int64_t bound(std::span<dense::slot const> prefix, std::int64_t) override {
+    auto const alone = bound_alone(prefix);
+    if (!coupled_) return alone;
+    fixed_utility total{units(alone)};
+    bool known = true;
+    bool nothing = false;
+    for_each_part<V, Beliefs>(plan_.utility(), [&](double weight, auto const& part) {
+      using part_type = std::remove_cvref_t<decltype(part)>;
+      if constexpr (std::same_as<part_type, pairwise_utility<V, Beliefs>>) known = false;
+      if constexpr (std::same_as<part_type, general_utility<V, Beliefs>>) {
+        if (!known || weight == 0) return;
+        known = weight > 0 && part.bound;
+        if (!known) return;
+        auto const rest = problem_.participants.subspan(prefix.size());
+        auto const said = guarded([&] { return part.bound(problem_.beliefs, decode(prefix), rest); });
+        auto const most = said ? weigh(weight, *said) : refused{utility_fault::threw};
+        if (most) {
+          known = checked_add(total, most.value());
+        } else {  // below the range nothing is admissible; above it, or for NaN, the bound says nothing
+          nothing |= said && *said < 0;
+          known = false;
+        }
+      }
+    });
+    return nothing ? std::numeric_limits<std::int64_t>::min() : known ? total.units : dense::no_bound;
+  }
+
+  /// Agents of one kind with equal rows are interchangeable, unless something else could tell them apart.
+  bool find_twins(dense::instance const& in) {
+    bool known = coupled_ && !precondition_;
+    for_each_part<V, Beliefs>(plan_.utility(), [&](double, auto const& part) {
+      using part_type = std::remove_cvref_t<decltype(part)>;
+      if constexpr (std::same_as<part_type, pairwise_utility<V, Beliefs>>) known = false;
+      if constexpr (std::same_as<part_type, general_utility<V, Beliefs>>) known &= static_cast<bool>(part.kind);
+    });
+    if (!known) return false;
+    work_.twin.resize(in.agents);
+    for (std::size_t a = 0; a < in.agents; ++a) {
+      work_.twin[a] = static_cast<dense::row_index>(a);
+      for (std::size_t b = a; b-- > 0 && work_.twin[a] == a;)
+        if (std::equal(in.row(a), in.row(a) + in.slots(), in.row(b)) && same_kind(a, b))
+          work_.twin[a] = static_cast<dense::row_index>(b);
+    }
+    return true;
+  }
+  [[nodiscard]] bool same_kind(std::size_t a, std::size_t b) const {
+    bool same = true;
+    for_each_part<V, Beliefs>(plan_.utility(), [&](double, auto const& part) {
+      if constexpr (requires { part.kind; }) {
+        auto const kind = [&](std::size_t x) {
+          return guarded([&] { return part.kind(problem_.beliefs, problem_.participants[x]); });
+        };
+        auto const of_a = kind(a);
+        same = same && of_a && of_a == kind(b);
+      }
+    });
+    return same;
+  }
+
+  void note_lie(dense::instance const& in, dense::refuted_bound const& r) {
+    if (!coupled_) return;
+    bound_lie<V> l;
+    auto const set = [&](std::span<dense::slot const> assignment) {
+      auto const view = decode(assignment);
+      return allocation_atoms<V>(view.begin(), view.end());
+    };
+    l.plan = plan_.id();
+    l.partial = set(work_.tree.refuter().first(r.depth));
+    l.complete = set(work_.tree.refuter());
+    l.undecided = in.agents - r.depth;
+    l.bound = to_double({r.bound});
+    l.value = to_double({r.value});
+    lie_ = std::move(l);
   }
 
   problem<V, Beliefs> const& problem_;
   plan<V, Beliefs> const& plan_;
   workspace& work_;
-  bool precondition_;
-  additive_utility<V, Beliefs> const* additive_;
-  general_utility<V, Beliefs> const* general_;
-  plan_refusal<V> refusal_{};
-  std::optional<utility_refusal<V>> ignored_{};
-  std::optional<utility_fault> general_fault_{};
+  plan_memory& memory_;
+  formulation<V, Beliefs> form_;
+  bool precondition_ = false;
+  bool coupled_ = false;  // some part of U_p looks at more than one agent
+  std::optional<utility_refusal<V>> coupling_fault_{};
+  std::optional<bound_lie<V>> lie_{};
   bool precondition_threw_ = false;
+  std::optional<std::int64_t> most_negative_{};
   small_vector<in<V>, 8> atoms_;
 };
 

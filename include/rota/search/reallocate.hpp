@@ -15,7 +15,7 @@ enum class reallocation_reason : unsigned char {
   adopted_better,       ///< the best beats the current one by more than the margin
   current_invalid,      ///< the current one is not valid (any more); the best is adopted
   kept_optimal,         ///< nothing is better than the current one, proved
-  kept_hysteresis,      ///< something is better, by no more than the margin
+  kept_hysteresis,      ///< something is better, by no more than the margin and what the changes cost
   kept_unproved,        ///< the budget ran out, and nothing found beats the current one
   no_valid_allocation,  ///< proved; the allocation becomes ∅
   search_incomplete  ///< the current one is not valid, and the budget ran out before a valid one was found; becomes ∅
@@ -29,8 +29,10 @@ struct reallocation {
   std::optional<typename V::plan> plan{};  ///< of `atoms`; none if there is no valid allocation
   double utility = 0;                      ///< of `atoms`
   reallocation_reason reason{};
-  std::optional<double> gain{};  ///< U(best) − U(current), if both are valid
+  std::optional<double> gain{};  ///< U(best) less change costs − U(current), if both are valid
+  std::size_t changes = 0;       ///< participants who do something else from now on
   bool optimal = false;          ///< no valid allocation is better than the best one found
+  double gap = 0;                ///< no valid allocation is better than the best one found by more than this
   search_work work{};
 
   friend bool operator==(reallocation const&, reallocation const&) = default;
@@ -73,14 +75,24 @@ template <vocabulary V, class Beliefs>
   return best;
 }
 
+/// What a valid current allocation must be beaten by.
+template <vocabulary V>
+[[nodiscard]] fixed_utility margin_over(standing<V> const& now, hysteresis const& h) {
+  auto margin = margin_of(h.absolute.value_or(now.hysteresis));
+  double const u = to_double(now.utility);
+  return checked_add(margin, margin_of(h.relative * (u < 0 ? -u : u))) ? margin : margin_of(2 * max_utility);
+}
+
 }  // namespace detail
 
 /// Decides whether to keep the current allocation, and if not, which one to adopt; under one's own beliefs only.
 ///
-/// The current one is kept iff it is valid and U(best) ≤ U(current) + h; among equals nothing changes. h is
-/// `hysteresis::absolute`, otherwise the running plan's own. C = ∅ names no plan, so none is running: it counts as the
-/// best plan for which it is valid, preconditions are asked as on entry, and the plan's own hysteresis is 0. Otherwise
-/// every plan that occurs in C is running, and `precondition_scope::entry_only` is not asked of it.
+/// What is best is judged with `current` in the place of `problem::current`: less `problem::change_cost` for each participant
+/// that would do something else, and with a bonus for staying where U_p has a part `similarity`. The current one is kept
+/// iff it is valid and nothing beats it by more than h (see `hysteresis`); among equals nothing changes. C = ∅ names no
+/// plan, so none is running: it counts as the best plan for which it is valid, preconditions are asked as on entry, and the
+/// plan's own hysteresis is 0. Otherwise every plan that occurs in C is running, and `precondition_scope::entry_only` is not
+/// asked of it.
 /// Where no valid allocation exists the team has none: the event subtracts every atom. That is honest (each atom would
 /// claim a validity the agent does not believe in), and the next call with a satisfiable problem starts as `first`.
 ///
@@ -92,15 +104,16 @@ template <vocabulary V, class Beliefs>
 [[nodiscard]] reallocation<V> reallocate(problem<V, Beliefs> const& problem, allocation_atoms<V> const& current,
                                          hysteresis h, workspace& work, search_budget budget = {}) {
   reallocation<V> next;
-  auto const now = detail::standing_of(problem, current);
-  auto best = best_allocation(problem, work, budget, current.atoms());
+  auto here = problem;
+  here.current = current.atoms();
+  auto const now = detail::standing_of(here, current);
+  auto best = best_allocation(here, work, budget);
   next.optimal = best ? best->optimal : best.error().proved();
+  next.gap = best ? best->gap : 0;
   next.work = best ? best->work : best.error().work;
-  if (now && best) next.gain = to_double({best->exact.units - now->utility.units});
+  if (now && best) next.gain = to_double({best->objective.units - now->utility.units});
 
-  bool const keep =
-      now && (!best || !beats(best->exact, now->utility, margin_of(h.absolute.value_or(now->hysteresis))));
-  if (keep) {
+  if (now && (!best || !beats(best->objective, now->utility, detail::margin_over(*now, h)))) {
     next.atoms = current;
     next.plan = now->plan;
     next.utility = to_double(now->utility);
@@ -113,6 +126,7 @@ template <vocabulary V, class Beliefs>
     next.atoms = std::move(best->atoms);
     next.plan = best->plan;
     next.utility = best->utility;
+    next.changes = best->changes;
     next.reason = current.empty() ? reallocation_reason::first
                   : now           ? reallocation_reason::adopted_better
                                   : reallocation_reason::current_invalid;

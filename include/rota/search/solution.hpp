@@ -14,8 +14,22 @@ template <vocabulary V>
 struct runner_up {
   typename V::plan plan{};
   double utility = 0;
+  double distance = 0;  ///< how much less it is worth than the best, change costs counted
 
   friend bool operator==(runner_up const&, runner_up const&) = default;
+};
+
+/// A user's bound that was less than the value of an allocation it should have bounded.
+template <vocabulary V>
+struct bound_lie {
+  typename V::plan plan{};
+  allocation_atoms<V> partial;   ///< what was decided
+  std::size_t undecided = 0;     ///< how many participants were not, the last ones
+  allocation_atoms<V> complete;  ///< an extension worth more
+  double bound = 0;
+  double value = 0;
+
+  friend bool operator==(bound_lie const&, bound_lie const&) = default;
 };
 
 /// The best valid allocation over all plans of a type.
@@ -23,14 +37,19 @@ template <vocabulary V = runtime_vocabulary>
 struct solution {
   typename V::plan plan{};
   allocation_atoms<V> atoms;
-  double utility = 0;     ///< of `atoms`, exactly the fixed-point value (up to 2^33)
-  fixed_utility exact{};  ///< the same, for comparisons
-  bool optimal = false;   ///< proved: no valid allocation of any plan is better; false only if the budget ran out
+  double utility = 0;         ///< U_p of `atoms`, exactly the fixed-point value (up to 2^33)
+  fixed_utility exact{};      ///< the same, for comparisons
+  fixed_utility objective{};  ///< the same less change costs: what was maximised
+  std::size_t changes = 0;    ///< participants who do something else than in `problem::current`
+  bool optimal = false;       ///< proved: no valid allocation of any plan is better; false only if the budget ran out
+  double gap = 0;             ///< no valid allocation is better by more than this; 0 if optimal
   search_work work{};
   std::optional<rota::runner_up<V>> runner_up{};
   /// The first term or total left out because it is no utility (NaN, ±∞, out of range, threw). Allocations that need it
   /// are invalid, so the answer is right; the filler is not.
   std::optional<utility_refusal<V>> ignored{};
+  /// The first bound that was seen to be too low. Then the answer is valid, but nothing is proved.
+  std::optional<bound_lie<V>> lie{};
 
   friend bool operator==(solution const&, solution const&) = default;
 };
@@ -43,11 +62,11 @@ enum class no_plan_reason : unsigned char {
   task_short,                   ///< `count` agents may take on `task`, which needs `bounds`
   agent_without_task,           ///< `agent` may neither take on any task nor idle
   pairs_contradict,  ///< each agent and task alone could be served, but not all (`agent` or `task`: one left over)
-  utility_refused,   ///< needs a utility that is none: `fault`, at (`agent`, `task`) if additive
+  utility_refused,   ///< needs a utility that is none: `fault`, at (`agent`, `task`) if it is theirs
   precondition_never_holds,  ///< Pre(p) is false on every allocation that is valid otherwise
   precondition_threw,        ///< and so does no admissible allocation remain
   negative_utility,          ///< U_p is at most `value` < 0 on every allocation: clause (6)
-  search_incomplete          ///< the budget ran out before a valid allocation was found
+  search_incomplete          ///< the budget ran out, or a bound lied, before a valid allocation was found
 };
 
 /// Why one plan yields nothing, with its witness. Fields a reason does not mention keep their default.

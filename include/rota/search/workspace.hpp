@@ -2,42 +2,42 @@
 
 #include <rota/search/additive.hpp>
 #include <rota/search/general.hpp>
+#include <rota/search/limits.hpp>
+#include <rota/search/ties.hpp>
 
-#include <compare>
 #include <cstdint>
 #include <vector>
 
 namespace rota {
 
-/// How much a search may do. Time is not part of it: equal inputs give equal answers on every machine.
-struct search_budget {
-  /// Placements tried in tree search, over all plans of a type. Additive utilities without a precondition need none.
-  std::uint64_t nodes = std::uint64_t{1} << 20;
-
-  friend bool operator==(search_budget, search_budget) = default;
+/// One plan in dense numbers, as it was when it was last searched: what has not changed need not be searched again.
+struct plan_memory {
+  std::vector<dense::slot_bounds> bounds;  ///< of the tasks, idle last
+  std::vector<std::int64_t> units;         ///< utilities less change costs, row per agent, idle last
+  std::vector<std::int64_t> keys;          ///< the same with ties broken
+  dense::tie_rule ties;
+  std::vector<dense::row_index> changed;  ///< rows that the solver has not seen
+  bool seen = false;                      ///< whether it has seen all the others
+  dense::additive_solver solver;
+  dense::additive_outcome last;  ///< of the solver, on `keys` and `bounds`
+  bool solved = false;           ///< whether it still holds
 };
 
-/// What a search did.
-struct search_work {
-  std::uint64_t nodes = 0;          ///< placements tried in tree search
-  std::uint64_t augmentations = 0;  ///< paths pushed by the additive solver
-  std::uint64_t relaxations = 0;    ///< arcs the additive solver looked at
-
-  friend bool operator==(search_work, search_work) = default;
-};
-
-/// Buffers that searches reuse, so that a steady loop allocates nothing. It holds no result and influences none.
+/// Buffers that searches reuse, so that a steady loop allocates nothing and begins where it ended. An answer never depends
+/// on it: optima are canonical.
 ///
-/// Grows to O(n·t + t²) integers for the largest problem it met, n agents and t tasks. One per thread.
+/// Grows to O(n·t + t²) integers a plan for the largest problem it met, n agents and t tasks. One per thread.
 class workspace {
 public:
-  dense::additive_solver additive;
+  std::vector<plan_memory> plans;  ///< by their order in the plan type
   dense::tree_solver tree;
-  std::vector<std::int64_t> utility;       ///< the matrix, row per agent, idle last
-  std::vector<dense::slot_bounds> bounds;  ///< of the tasks, idle last
-  std::vector<std::int64_t> suffix;        ///< additive bound of the agents from one on
-  std::vector<dense::slot> candidate;      ///< the assignment found for the present plan
-  std::vector<dense::slot> best;           ///< the assignment of the best plan so far
+  std::vector<std::int64_t> row;       ///< one agent's utilities
+  std::vector<std::int64_t> most;      ///< what the agents from one on add at most, at the prices of the slots
+  std::vector<dense::row_index> twin;  ///< see `dense::tree_options`
+  std::vector<std::uint64_t> kind;     ///< of each agent, as the utility says
+  std::vector<dense::slot> now;        ///< what each agent does, as a slot
+  std::vector<dense::slot> candidate;  ///< the assignment found for the present plan
+  std::vector<dense::slot> best;       ///< the assignment of the best plan so far
 };
 
 }  // namespace rota

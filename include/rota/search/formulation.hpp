@@ -1,0 +1,241 @@
+#pragma once
+
+#include <rota/search/solution.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace rota::detail {
+
+/// Writes one plan of a problem into dense numbers: slots are its tasks and, last, idling; utilities are what parts of U_p
+/// that look at agents one by one say, less change costs, in units.
+///
+/// What does not differ from what the memory holds is left as it is, and `plan_memory::changed` says what does.
+template <vocabulary V, class Beliefs>
+class formulation {
+public:
+  using agent = typename V::agent;
+
+  formulation(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, plan_memory& memory,
+              std::vector<std::int64_t>& row)
+      : problem_(problem), plan_(p), memory_(memory), row_(row) {}
+
+  /// False if the plan has no valid allocation for a reason that shows at once: `refusal`.
+  bool write() { return write_bounds() && write_utilities(); }
+
+  [[nodiscard]] plan_refusal<V>& refusal() noexcept { return refusal_; }
+  /// The first term left out because it is no utility.
+  [[nodiscard]] std::optional<utility_refusal<V>> const& ignored() const noexcept { return ignored_; }
+  /// A change cost in units, nothing where it is out of range.
+  [[nodiscard]] std::int64_t change_cost() const noexcept { return cost_; }
+
+  /// What agent number a does now, as a slot of this plan; `no_slot` if it executes another plan.
+  [[nodiscard]] dense::slot current_slot(std::size_t a) const {
+    agent const who = problem_.participants[a];
+    auto const& now = problem_.current;
+    auto const x =
+        std::lower_bound(now.begin(), now.end(), who, [](in<V> const& y, agent key) { return key > y.agent; });
+    auto const tasks = plan_.tasks();
+    if (x == now.end() || !(x->agent == who)) return static_cast<dense::slot>(tasks.size());
+    if (!(x->plan == plan_.id())) return dense::no_slot;
+    for (std::size_t s = 0; s < tasks.size(); ++s)
+      if (tasks[s].task == x->task) return static_cast<dense::slot>(s);
+    return dense::no_slot;
+  }
+
+  /// Where terms were left out as faulty, that is the likelier reason than the cardinalities.
+  bool blame_utility() {
+    if (!ignored_) return false;
+    refusal_.why = no_plan_reason::utility_refused;
+    refusal_.fault = ignored_->why;
+    refusal_.agent = ignored_->atom->agent;
+    refusal_.task = ignored_->atom->task;
+    return true;
+  }
+
+private:
+  static constexpr std::int64_t most_units = dense::max_total;
+  static constexpr std::uint64_t unlimited = std::uint64_t{1} << 40;
+  static constexpr std::uint32_t clip(std::uint64_t n) {
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(n, cardinality::unbounded - 1));
+  }
+  bool fail(no_plan_reason why, std::size_t count, cardinality bounds) {
+    refusal_.why = why;
+    refusal_.count = count;
+    refusal_.bounds = bounds;
+    return false;
+  }
+
+  /// Cardinalities and team size as slot bounds; the team size bounds the idle slot from the other side.
+  bool write_bounds() {
+    std::size_t const n = problem_.participants.size();
+    auto const tasks = plan_.tasks();
+    std::uint64_t least = 0;
+    std::uint64_t most = 0;
+    for (plan_task<V> const& t : tasks) {
+      least += t.bounds.min();
+      most += t.bounds.is_bounded() ? t.bounds.max() : unlimited;
+    }
+    cardinality const size = plan_.team_size();
+    std::uint64_t const size_max = size.is_bounded() ? size.max() : unlimited;
+    if (least > size_max) return fail(no_plan_reason::contradictory_cardinalities, least, size);
+    if (most < size.min()) return fail(no_plan_reason::contradictory_cardinalities, most, size);
+    std::uint64_t const needed = std::max<std::uint64_t>(least, size.min());
+    if (n < needed) return fail(no_plan_reason::too_few_agents, n, {clip(needed), cardinality::unbounded});
+    std::uint64_t const room = std::min(most, size_max);
+    bool const may_idle = problem_.idle == idling::allowed;
+    if (!may_idle && n > room) return fail(no_plan_reason::too_many_agents, n, {0, clip(room)});
+
+    if (memory_.bounds.size() != tasks.size() + 1) memory_.bounds.assign(tasks.size() + 1, {~0u, ~0u});
+    auto const set = [&](std::size_t s, std::uint64_t lower, std::uint64_t upper) {
+      dense::slot_bounds const b{static_cast<std::uint32_t>(lower), static_cast<std::uint32_t>(upper)};
+      if (memory_.bounds[s] == b) return;
+      memory_.bounds[s] = b;
+      memory_.solved = false;
+    };
+    for (std::size_t s = 0; s < tasks.size(); ++s) {
+      auto const& b = tasks[s].bounds;
+      set(s, b.min(), std::min<std::uint64_t>(b.is_bounded() ? b.max() : unlimited, n));
+    }
+    set(tasks.size(), n - std::min<std::uint64_t>(n, size_max), may_idle ? n - size.min() : 0);
+    return true;
+  }
+
+  /// The utility matrix, with forbidden pairs absent.
+  bool write_utilities() {
+    std::size_t const n = problem_.participants.size();
+    std::size_t const slots = plan_.tasks().size() + 1;
+    auto const cost = weigh(1, problem_.change_cost);
+    if (!cost || cost.value().units < 0) {
+      refusal_.fault = cost ? utility_fault::negative : cost.error();
+      refusal_.why = no_plan_reason::utility_refused;
+      return false;
+    }
+    cost_ = cost.value().units;
+    auto& m = memory_;
+    bool const anew = m.units.size() != n * slots || !m.seen;
+    if (anew) {
+      m.units.assign(n * slots, dense::absent);
+      m.keys.resize(n * slots);
+    }
+    m.changed.clear();
+    row_.resize(slots);
+    std::uint64_t greatest = 0;
+    std::size_t greatest_at = 0;
+    for (std::size_t a = 0; a < n; ++a) {
+      if (auto const magnitude = write_row(a); magnitude > greatest) greatest = magnitude, greatest_at = a;
+      auto const old = m.units.begin() + static_cast<std::ptrdiff_t>(a * slots);
+      if (std::equal(row_.begin(), row_.end(), old)) continue;
+      std::copy(row_.begin(), row_.end(), old);
+      m.changed.push_back(static_cast<dense::row_index>(a));
+    }
+    if (!m.changed.empty()) m.seen = m.solved = false;
+    if (!dense::fits(n, slots, greatest)) {
+      refusal_.agent = problem_.participants[greatest_at];
+      refusal_.fault = utility_fault::out_of_range;
+      refusal_.why = no_plan_reason::utility_refused;
+      m.seen = m.solved = false;
+      return false;
+    }
+    break_ties(n, slots, greatest, anew);
+    return every_task_served(n, slots) && every_agent_served(n, slots);
+  }
+
+  void break_ties(std::size_t n, std::size_t slots, std::uint64_t greatest, bool anew) {
+    auto& m = memory_;
+    dense::tie_rule const ties(n, slots, greatest);
+    bool const all = anew || !(ties == m.ties);
+    m.ties = ties;
+    if (all) {
+      m.changed.resize(n);
+      for (std::size_t a = 0; a < n; ++a) m.changed[a] = static_cast<dense::row_index>(a);
+      m.seen = m.solved = false;
+    }
+    for (auto const a : m.changed) ties.keys(a, m.units.data() + a * slots, m.keys.data() + a * slots);
+  }
+
+  /// One agent's utilities into row_. @return the greatest magnitude
+  std::uint64_t write_row(std::size_t a) {
+    auto const tasks = plan_.tasks();
+    agent const who = problem_.participants[a];
+    ROTA_ASSERT(a == 0 || problem_.participants[a - 1] < who);
+    auto const* const role = problem_.members.role_of(who);
+    auto const now = cost_ != 0 ? current_slot(a) : dense::no_slot;
+    std::uint64_t greatest = 0;
+    auto const write = [&](std::size_t s, std::int64_t units) {
+      if (s != now) units -= cost_;
+      row_[s] = units;
+      greatest = std::max(greatest, static_cast<std::uint64_t>(units < 0 ? -units : units));
+    };
+    for (std::size_t s = 0; s < tasks.size(); ++s) {
+      row_[s] = dense::absent;
+      if (role == nullptr || memory_.bounds[s].upper == 0 || !role->permits(tasks[s].task)) continue;
+      if (auto const units = rate({who, plan_.id(), tasks[s].task})) write(s, *units);
+    }
+    row_[tasks.size()] = dense::absent;
+    if (memory_.bounds[tasks.size()].upper > 0) write(tasks.size(), 0);
+    return greatest;
+  }
+
+  /// What all parts of U_p say about one atom.
+  std::optional<std::int64_t> rate(in<V> const& x) {
+    fixed_utility total;
+    bool counts = true;
+    for_each_part<V, Beliefs>(plan_.utility(), [&](double weight, auto const& part) {
+      if (!counts) return;
+      auto const term = term_of<V, Beliefs>(problem_, weight, part, x);
+      auto const why = !term                              ? term.error()
+                       : checked_add(total, term.value()) ? utility_fault::none
+                                                          : utility_fault::out_of_range;
+      if (why == utility_fault::none) return;
+      counts = false;
+      if (why != utility_fault::forbidden_pair && !ignored_) ignored_ = utility_refusal<V>{why, x, std::nullopt};
+    });
+    if (!counts) return std::nullopt;
+    if (total.units > most_units || total.units < -most_units) {
+      if (!ignored_) ignored_ = utility_refusal<V>{utility_fault::out_of_range, x, std::nullopt};
+      return std::nullopt;
+    }
+    return total.units;
+  }
+
+  bool every_task_served(std::size_t n, std::size_t slots) {
+    for (std::size_t s = 0; s + 1 < slots; ++s) {
+      if (memory_.bounds[s].lower == 0) continue;
+      std::size_t able = 0;
+      for (std::size_t a = 0; a < n; ++a) able += memory_.units[a * slots + s] != dense::absent;
+      if (able >= memory_.bounds[s].lower) continue;
+      if (blame_utility()) return false;
+      refusal_.task = plan_.tasks()[s].task;
+      return fail(no_plan_reason::task_short, able, plan_.tasks()[s].bounds);
+    }
+    return true;
+  }
+
+  bool every_agent_served(std::size_t n, std::size_t slots) {
+    for (std::size_t a = 0; a < n; ++a) {
+      auto const row = memory_.units.begin() + static_cast<std::ptrdiff_t>(a * slots);
+      if (std::any_of(row, row + static_cast<std::ptrdiff_t>(slots), [](auto u) { return u != dense::absent; }))
+        continue;
+      if (blame_utility()) return false;
+      refusal_.agent = problem_.participants[a];
+      refusal_.why = no_plan_reason::agent_without_task;
+      return false;
+    }
+    return true;
+  }
+
+  problem<V, Beliefs> const& problem_;
+  plan<V, Beliefs> const& plan_;
+  plan_memory& memory_;
+  std::vector<std::int64_t>& row_;
+  std::int64_t cost_ = 0;
+  plan_refusal<V> refusal_{};
+  std::optional<utility_refusal<V>> ignored_{};
+};
+
+}  // namespace rota::detail
