@@ -5,7 +5,7 @@ export DEBIAN_FRONTEND=noninteractive
 
 compiler_packages=(g++ cmake ninja-build)
 library_packages=(libboost-dev libeigen3-dev nlohmann-json3-dev libpugixml-dev libcli11-dev)
-test_packages=(libgtest-dev librapidcheck-dev z3)
+test_packages=(libgtest-dev librapidcheck-dev z3 libglpk-dev)
 benchmark_packages=(libbenchmark-dev libroaring-dev)
 heavy_packages=(clang-19 libclang-rt-19-dev clang-format-19 git)
 

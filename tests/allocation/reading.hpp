@@ -66,10 +66,10 @@ inline verdict judge(raw_problem const& problem, raw_plan const& p, facts const&
     for (fact const& y : c)
       if (x.plan == p.id && y.plan == p.id && x.agent == y.agent && x.task != y.task) v.two_tasks.insert(x.agent);
   if (!(running && p.entry_only)) v.precondition = !holds(p, known);
-  if (!p.general)
+  if (!p.general || p.sum)
     for (fact const& x : known)
       if (!p.u[static_cast<std::size_t>(x.agent)][static_cast<std::size_t>(x.task)]) v.forbidden.insert(x);
-  if (v.forbidden.empty()) v.negative = (p.general ? general_value(p, known) : sum_of(p, known)) < 0;
+  if (v.forbidden.empty()) v.negative = value_of(problem, p, known) < 0;
   v.team_size = employed.size() < p.team_min || (p.team_max != unlimited && employed.size() > p.team_max);
   if (!problem.idle)
     for (int a : problem.participants)
@@ -88,6 +88,7 @@ struct best {
   raw_plan const* plan = nullptr;
   facts atoms;
   double utility = 0;
+  double objective = 0;  // less change costs
   std::uint64_t leaves = 0;
 };
 
@@ -105,8 +106,10 @@ best enumerate(raw_problem const& problem, raw_plan const& p, Valid const& valid
     for (std::size_t a = 0; a < choice.size(); ++a)
       if (choice[a] < tasks.size()) c.push_back({problem.participants[a], p.id, tasks[choice[a]]});
     if (valid(p, c)) {
-      double const utility = p.general ? general_value(p, c) : sum_of(p, c);
-      if (b.plan == nullptr || utility > b.utility) b.plan = &p, b.atoms = c, b.utility = utility;
+      double const utility = value_of(problem, p, c);
+      double const objective = utility - problem.change_cost * changes(problem, c);
+      if (b.plan == nullptr || objective > b.objective)
+        b.plan = &p, b.atoms = c, b.utility = utility, b.objective = objective;
     }
     std::size_t a = choice.size();
     while (a > 0 && choice[a - 1] == tasks.size()) choice[--a] = 0;
@@ -122,14 +125,18 @@ best enumerate(raw_problem const& problem, Valid const& valid) {
   for (raw_plan const& p : problem.plans) {
     best const b = enumerate(problem, p, valid);
     if (b.plan == nullptr) continue;
-    if (all.plan == nullptr || b.utility > all.utility || (b.utility == all.utility && b.plan->id < all.plan->id))
+    if (all.plan == nullptr || b.objective > all.objective ||
+        (b.objective == all.objective && b.plan->id < all.plan->id))
       all = b;
   }
   return all;
 }
 
 inline best enumerate(raw_problem const& problem) {
-  return enumerate(problem, [&](raw_plan const& p, facts const& c) { return judge(problem, p, c, false).valid(); });
+  return enumerate(problem, [&](raw_plan const& p, facts const& c) {
+    auto const runs = [&](fact const& x) { return x.plan == p.id; };
+    return judge(problem, p, c, std::any_of(problem.current.begin(), problem.current.end(), runs)).valid();
+  });
 }
 
 }  // namespace reading

@@ -44,6 +44,11 @@ struct raw_task {
   unsigned max = unlimited;
 };
 
+/// Weights of the parts of a utility that is a sum: agents alone, pairs of agents, the whole, role priorities, staying.
+struct raw_sum {
+  double alone = 1, pairs = 0, whole = 0, priority = 0, staying = 0;
+};
+
 struct raw_plan {
   int id = 0;
   std::vector<raw_task> tasks;
@@ -51,6 +56,8 @@ struct raw_plan {
   unsigned team_max = unlimited;
   bool general = false;
   bool bounded = false;  // a general utility with a bound
+  bool kinds = false;    // a general utility that says which agents are interchangeable
+  std::optional<raw_sum> sum;
   truth pre = truth::always;
   bool entry_only = false;
   double offset = 0;  // of a general utility
@@ -65,6 +72,9 @@ struct raw_problem {
   std::array<std::array<bool, 8>, 8> forbidden{};  // by role: [agent][task]
   bool idle = true;
   std::vector<raw_plan> plans;  // in listing order
+  facts current;                // at most one atom per agent
+  double change_cost = 0;
+  std::array<std::array<double, 8>, 8> priority{};  // by role: [agent][task]
 };
 
 inline double sum_of(raw_plan const& p, facts const& c) {
@@ -74,12 +84,43 @@ inline double sum_of(raw_plan const& p, facts const& c) {
   return sum;
 }
 
-/// General utility: the sum, less one for each pair of agents on one task, plus the offset.
-inline double general_value(raw_plan const& p, facts const& c) {
-  double value = sum_of(p, c) + p.offset;
+inline double crowding(facts const& c) {
+  double value = 0;
   for (fact const& x : c)
     for (fact const& y : c) value -= x.agent < y.agent && x.task == y.task ? 1.0 : 0.0;
   return value;
+}
+/// General utility: the sum, less one for each pair of agents on one task, plus the offset.
+inline double general_value(raw_plan const& p, facts const& c) { return sum_of(p, c) + p.offset + crowding(c); }
+
+/// What two agents are worth together.
+inline double company(raw_plan const& p, int a, int s, int b, int t) {
+  auto const h = (p.salt + static_cast<std::uint64_t>(((a * 8 + s) * 8 + b) * 8 + t)) * 0x9E3779B97F4A7C15u;
+  return 0.5 * static_cast<double>((h >> 40) % 5) - 1.0;
+}
+
+/// U_p, whatever it is made of.
+inline double value_of(raw_problem const& r, raw_plan const& p, facts const& c) {
+  if (!p.sum) return p.general ? general_value(p, c) : sum_of(p, c);
+  double value = p.sum->alone * sum_of(p, c) + p.sum->whole * (crowding(c) + p.offset);
+  for (fact const& x : c) {
+    value += p.sum->priority * r.priority[static_cast<std::size_t>(x.agent)][static_cast<std::size_t>(x.task)];
+    value += p.sum->staying * static_cast<double>(std::count(r.current.begin(), r.current.end(), x));
+    for (fact const& y : c)
+      if (x.agent < y.agent) value += p.sum->pairs * company(p, x.agent, x.task, y.agent, y.task);
+  }
+  return value;
+}
+
+/// Participants who would do something else than now.
+inline int changes(raw_problem const& r, facts const& c) {
+  auto part = [](facts const& of, int a) {
+    auto const x = std::find_if(of.begin(), of.end(), [&](fact const& f) { return f.agent == a; });
+    return x == of.end() ? std::optional<fact>{} : std::optional{*x};
+  };
+  int n = 0;
+  for (int a : r.participants) n += part(r.current, a) != part(c, a);
+  return n;
 }
 
 inline bool holds(raw_plan const& p, facts const& c) {
@@ -104,6 +145,8 @@ struct flavour {
   bool general = false;
   bool preconditions = false;
   bool negative = false;
+  bool sums = false;
+  bool running = false;  // there is a current allocation, and changes may cost
 };
 
 /// Numbers from a seed: rapidcheck picks the seed and the sizes, so that sizes shrink and a case costs one draw.
@@ -160,6 +203,12 @@ inline raw_plan random_plan(dice& d, int id, flavour const& f) {
       if (d.chance(forbidding)) u.reset();
     }
   if (d.chance(30)) p.u.fill(p.u[0]);  // interchangeable agents
+  p.kinds = d.chance(50);
+  if (f.sums && d.chance(75)) {
+    auto weight = [&](int percent) { return d.chance(percent) ? 0.5 * (d.below(5) - 1) : 0.0; };
+    p.sum = raw_sum{weight(80), weight(40), weight(40), weight(40), weight(40)};
+    p.general = p.sum->whole != 0;
+  }
   return p;
 }
 
@@ -178,6 +227,17 @@ inline raw_problem random_problem(dice& d, flavour const& f) {
     for (bool& b : row) b = d.chance(forbidding);
   for (int id : d.some(1 + d.below(f.plans), 5)) r.plans.push_back(random_plan(d, id, f));
   d.shuffle(r.plans);
+  for (auto& row : r.priority)
+    for (double& x : row) x = 0.5 * d.below(4);
+  if (f.running && d.chance(80)) {
+    r.change_cost = d.chance(60) ? 0.5 * d.below(4) : 0;
+    for (int a : r.participants) {
+      if (d.chance(30)) continue;
+      auto const& p = r.plans[d.chance(80) ? 0 : d.bits() % r.plans.size()];
+      r.current.push_back({a, p.id, p.tasks[d.bits() % p.tasks.size()].id});
+    }
+    std::sort(r.current.begin(), r.current.end());
+  }
   return r;
 }
 
@@ -209,6 +269,37 @@ inline rota::cardinality to_cardinality(unsigned min, unsigned max) {
   return {min, max == unlimited ? rota::cardinality::unbounded : max};
 }
 
+using part_t = rota::utility_part<names, rota::no_beliefs>;
+
+/// The parts of weight 0 are left out, but for one.
+inline rota::weighted_sum<names, rota::no_beliefs>
+build_sum(std::shared_ptr<raw_plan const> shared, rota::additive_utility<names, rota::no_beliefs> const& alone) {
+  rota::weighted_sum<names, rota::no_beliefs> sum;
+  auto const& w = *shared->sum;
+  sum.push_back({w.alone, part_t{alone}});
+  if (w.pairs != 0)
+    sum.push_back({w.pairs, part_t{rota::pairwise_utility<names, rota::no_beliefs>{
+                                {}, [shared](auto a, auto s, auto b, auto t, rota::no_beliefs) {
+                                  return company(*shared, static_cast<int>(a), static_cast<int>(s), static_cast<int>(b),
+                                                 static_cast<int>(t));
+                                }}}});
+  if (w.whole != 0) {
+    rota::general_utility<names, rota::no_beliefs> u;
+    u.value = [shared](rota::no_beliefs, rota::allocation_view<names> c) {
+      return crowding(to_facts(c)) + shared->offset;
+    };
+    if (shared->bounded)  // what is there already can only get worse
+      u.bound = [shared](rota::no_beliefs, rota::allocation_view<names> c, std::span<names::agent const>) {
+        return crowding(to_facts(c)) + shared->offset;
+      };
+    if (shared->kinds) u.kind = [](rota::no_beliefs, names::agent) { return std::uint64_t{0}; };
+    sum.push_back({w.whole, part_t{u}});
+  }
+  if (w.priority != 0) sum.push_back({w.priority, part_t{rota::role_priorities{}}});
+  if (w.staying != 0) sum.push_back({w.staying, part_t{rota::similarity{}}});
+  return sum;
+}
+
 inline plan_t build(raw_plan const& raw) {
   rota::plan_description<names, rota::no_beliefs> d;
   d.plan = names::plan(raw.id);
@@ -219,14 +310,25 @@ inline plan_t build(raw_plan const& raw) {
   auto const shared = std::make_shared<raw_plan const>(raw);
   if (raw.pre != truth::always)
     d.precondition = [shared](rota::no_beliefs, rota::allocation_view<names> c) { return holds(*shared, to_facts(c)); };
+  rota::additive_utility<names, rota::no_beliefs> const alone = [shared](names::agent a, names::task t,
+                                                                         rota::no_beliefs) {
+    return shared->u[static_cast<std::size_t>(a)][static_cast<std::size_t>(t)];
+  };
+  if (raw.sum) {
+    d.utility = build_sum(shared, alone);
+    return std::move(plan_t::make(std::move(d)).value());
+  }
   if (!raw.general) {
-    d.utility =
-        rota::additive_utility<names, rota::no_beliefs>([shared](names::agent a, names::task t, rota::no_beliefs) {
-          return shared->u[static_cast<std::size_t>(a)][static_cast<std::size_t>(t)];
-        });
+    d.utility = alone;
     return std::move(plan_t::make(std::move(d)).value());
   }
   rota::general_utility<names, rota::no_beliefs> u;
+  if (raw.kinds)  // equal rows, equal kind: nothing else tells agents apart
+    u.kind = [shared](rota::no_beliefs, names::agent a) {
+      std::size_t k = 0;
+      while (shared->u[k] != shared->u[static_cast<std::size_t>(a)]) ++k;
+      return std::uint64_t{k};
+    };
   u.value = [shared](rota::no_beliefs, rota::allocation_view<names> c) { return general_value(*shared, to_facts(c)); };
   if (raw.bounded)
     u.bound = [shared](rota::no_beliefs, rota::allocation_view<names> c, std::span<names::agent const> rest) {
@@ -248,12 +350,17 @@ struct built {
   rota::team<names> team;
   std::vector<names::agent> participants;
   rota::no_beliefs beliefs{};
+  atoms_t current;
 
-  explicit built(raw_problem const& raw) : type(build_type(raw)) {
+  explicit built(raw_problem const& raw) : type(build_type(raw)), current(to_atoms(raw.current)) {
     for (int a : raw.members) {
       rota::role<names> role;
       for (int t = 0; t < 8; ++t)
-        if (raw.forbidden[static_cast<std::size_t>(a)][static_cast<std::size_t>(t)]) role.forbid(names::task(t));
+        if (raw.forbidden[static_cast<std::size_t>(a)][static_cast<std::size_t>(t)]) {
+          role.forbid(names::task(t));
+        } else {
+          role.prioritise(names::task(t), raw.priority[static_cast<std::size_t>(a)][static_cast<std::size_t>(t)]);
+        }
       team.add(names::agent(a), role);
     }
     for (int a : raw.participants) participants.push_back(names::agent(a));

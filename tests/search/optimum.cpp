@@ -18,13 +18,19 @@ rota::idling idling_of(raw_problem const& raw) { return raw.idle ? rota::idling:
 
 struct shares {
   int cases = 0, found = 0, general = 0, tied = 0, lower = 0, team = 0, forbidden = 0, no_idle = 0, runner_up = 0,
-      without_lower_bounds = 0, tree = 0;
+      without_lower_bounds = 0, tree = 0, sums = 0, pairs = 0, staying = 0, costly = 0;
 };
+
+bool running(raw_problem const& raw, raw_plan const& p) {
+  return std::any_of(raw.current.begin(), raw.current.end(), [&](fact const& x) { return x.plan == p.id; });
+}
 
 /// The library and enumeration on one random problem.
 void agree(raw_problem const& raw, rota::workspace& work, shares& s) {
   built const b(raw);
-  rota::problem const problem{b.type, b.team, b.beliefs, b.participants, idling_of(raw)};
+  rota::problem problem{b.type, b.team, b.beliefs, b.participants, idling_of(raw)};
+  problem.current = b.current.atoms();
+  problem.change_cost = raw.change_cost;
   auto const expected = reading::enumerate(raw);
   auto const got = best_allocation(problem, work);
   RC_ASSERT(got.has_value() == (expected.plan != nullptr));
@@ -33,9 +39,10 @@ void agree(raw_problem const& raw, rota::workspace& work, shares& s) {
     RC_ASSERT(got.error().proved());
     RC_ASSERT(got.error().plans.size() == raw.plans.size());
     for (auto const& refusal : got.error().plans)
-      RC_ASSERT(reading::enumerate(
-                    raw, *reading::find_plan(raw, static_cast<int>(refusal.plan)),
-                    [&](raw_plan const& p, facts const& c) { return reading::judge(raw, p, c, false).valid(); })
+      RC_ASSERT(reading::enumerate(raw, *reading::find_plan(raw, static_cast<int>(refusal.plan)),
+                                   [&](raw_plan const& p, facts const& c) {
+                                     return reading::judge(raw, p, c, running(raw, p)).valid();
+                                   })
                     .plan == nullptr);
     return;
   }
@@ -43,7 +50,12 @@ void agree(raw_problem const& raw, rota::workspace& work, shares& s) {
   RC_ASSERT(got->utility == expected.utility);
   RC_ASSERT(got->plan == names::plan(expected.plan->id));
   RC_ASSERT(to_facts(got->atoms) == expected.atoms);
-  RC_ASSERT(validate(problem, *b.type.find(got->plan), got->atoms).valid());
+  RC_ASSERT(rota::to_double(got->objective) == expected.objective);
+  RC_ASSERT(got->gap == 0);
+  RC_ASSERT(!got->lie);
+  RC_ASSERT(got->changes == static_cast<std::size_t>(changes(raw, expected.atoms)));
+  auto const phase = running(raw, *expected.plan) ? rota::plan_phase::running : rota::plan_phase::entering;
+  RC_ASSERT(validate(problem, *b.type.find(got->plan), got->atoms, phase).valid());
   RC_ASSERT(!got->ignored);
 
   // The runner-up is the best of the others.
@@ -51,26 +63,33 @@ void agree(raw_problem const& raw, rota::workspace& work, shares& s) {
   for (auto const& p : raw.plans) {
     if (p.id == expected.plan->id) continue;
     auto const other = reading::enumerate(
-        raw, p, [&](raw_plan const& q, facts const& c) { return reading::judge(raw, q, c, false).valid(); });
-    if (other.plan != nullptr && (second.plan == nullptr || other.utility > second.utility ||
-                                  (other.utility == second.utility && other.plan->id < second.plan->id)))
+        raw, p, [&](raw_plan const& q, facts const& c) { return reading::judge(raw, q, c, running(raw, q)).valid(); });
+    if (other.plan != nullptr && (second.plan == nullptr || other.objective > second.objective ||
+                                  (other.objective == second.objective && other.plan->id < second.plan->id)))
       second = other;
   }
   RC_ASSERT(got->runner_up.has_value() == (second.plan != nullptr));
   if (second.plan != nullptr) {
     RC_ASSERT(got->runner_up->plan == names::plan(second.plan->id));
     RC_ASSERT(got->runner_up->utility == second.utility);
+    RC_ASSERT(got->runner_up->distance == expected.objective - second.objective);
   }
 
   ++s.found;
   s.general += expected.plan->general;
+  if (expected.plan->sum) {
+    ++s.sums;
+    s.pairs += expected.plan->sum->pairs != 0;
+    s.staying += expected.plan->sum->staying != 0 && !raw.current.empty();
+  }
+  s.costly += raw.change_cost > 0 && got->changes > 0;
   s.no_idle += !raw.idle;
   s.runner_up += second.plan != nullptr;
   s.tree += got->work.nodes > 0;
   int optima = 0;
   (void)reading::enumerate(raw, *expected.plan, [&](raw_plan const& p, facts const& c) {
-    bool const valid = reading::judge(raw, p, c, false).valid();
-    optima += valid && (p.general ? general_value(p, c) : sum_of(p, c)) == expected.utility;
+    bool const valid = reading::judge(raw, p, c, running(raw, p)).valid();
+    optima += valid && value_of(raw, p, c) - raw.change_cost * changes(raw, c) == expected.objective;
     return valid;
   });
   s.tied += optima > 1;
@@ -127,15 +146,46 @@ TEST(best_allocation, negative_totals_are_invalid) {
   EXPECT_GE((s.cases - s.found) * 100, s.cases * 20) << s.found << "/" << s.cases;
 }
 
+TEST(best_allocation, of_sums_of_all_kinds_of_parts) {
+  auto const s =
+      compare({.agents = 4, .tasks = 3, .plans = 2, .levels = 3, .general = true, .preconditions = true, .sums = true});
+  EXPECT_GE(s.sums * 100, s.found * 50) << s.sums;
+  EXPECT_GE(s.pairs * 100, s.found * 20) << s.pairs;
+  EXPECT_GE(s.tied * 100, s.found * 10) << s.tied;
+}
+
+TEST(best_allocation, beside_a_current_one_that_is_costly_to_leave) {
+  auto const s = compare({.agents = 4,
+                          .tasks = 3,
+                          .plans = 2,
+                          .levels = 4,
+                          .general = true,
+                          .preconditions = true,
+                          .negative = true,
+                          .sums = true,
+                          .running = true});
+  EXPECT_GE(s.costly * 100, s.found * 20) << s.costly;
+  EXPECT_GE(s.staying * 100, s.found * 10) << s.staying;
+}
+
 TEST(best_allocation, depends_on_no_listing_order_and_no_history) {
   rota::workspace used;
   EXPECT_TRUE(rc::check([&] {
     dice d(*any_seed().as("seed"));
-    auto raw =
-        random_problem(d, {.agents = 6, .tasks = 4, .plans = 3, .levels = 3, .general = true, .preconditions = true});
+    auto raw = random_problem(d, {.agents = 5,
+                                  .tasks = 3,
+                                  .plans = 3,
+                                  .levels = 3,
+                                  .general = true,
+                                  .preconditions = true,
+                                  .sums = d.chance(50),
+                                  .running = d.chance(50)});
     built const first(raw);
     auto solve = [&](built const& b, rota::workspace& w) {
-      auto found = best_allocation(rota::problem{b.type, b.team, b.beliefs, b.participants, idling_of(raw)}, w);
+      rota::problem problem{b.type, b.team, b.beliefs, b.participants, idling_of(raw)};
+      problem.current = b.current.atoms();
+      problem.change_cost = raw.change_cost;
+      auto found = best_allocation(problem, w);
       if (found) found->work = {};  // what was done may depend on what was done before
       return found;
     };

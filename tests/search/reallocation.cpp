@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cmath>
 #include <map>
 
 namespace reallocation_test {
@@ -26,43 +27,52 @@ bool executes(facts const& c, raw_plan const& p) {
   return std::any_of(c.begin(), c.end(), [&](fact const& x) { return x.plan == p.id; });
 }
 
-double value(raw_plan const& p, facts const& c) { return p.general ? general_value(p, c) : sum_of(p, c); }
-
-expectation expect(raw_problem const& raw, facts const& current, std::optional<double> absolute) {
-  auto const best = reading::enumerate(
-      raw, [&](raw_plan const& p, facts const& c) { return reading::judge(raw, p, c, executes(current, p)).valid(); });
+/// `raw.current` is the current allocation.
+expectation expect(raw_problem const& raw, rota::hysteresis const& h) {
+  auto const& current = raw.current;
+  auto const best = reading::enumerate(raw);
   std::optional<double> standing;
   double margin = 0;
   for (auto const& p : raw.plans) {
     if (!current.empty() && !executes(current, p)) continue;
     if (!reading::judge(raw, p, current, !current.empty()).valid()) continue;
-    if (standing && value(p, current) <= *standing) continue;
-    standing = value(p, current);
+    if (standing && value_of(raw, p, current) <= *standing) continue;
+    standing = value_of(raw, p, current);
     margin = current.empty() ? 0 : p.hysteresis;
   }
-  margin = absolute.value_or(margin);
-  if (standing && best.plan != nullptr && best.utility <= *standing + margin)
+  margin = h.absolute.value_or(margin) + h.relative * std::abs(standing.value_or(0));
+  if (standing && best.plan != nullptr && best.objective <= *standing + margin)
     return {current, best.utility > *standing ? reason::kept_hysteresis : reason::kept_optimal};
   if (best.plan == nullptr) return {{}, reason::no_valid_allocation};
   return {best.atoms, current.empty() ? reason::first : standing ? reason::adopted_better : reason::current_invalid};
+}
+
+/// A bonus for leaving would make a team restless.
+bool restless(raw_problem const& raw) {
+  return std::any_of(raw.plans.begin(), raw.plans.end(), [](raw_plan const& p) { return p.sum && p.sum->staying < 0; });
 }
 
 TEST(reallocate, keeps_what_is_valid_and_good_enough) {
   std::map<reason, int> reached;
   int cases = 0;
   int entry = 0;
+  int costly = 0;
+  int relative = 0;
   rota::workspace work;
   EXPECT_TRUE(rc::check([&] {
     dice d(*any_seed().as("seed"));
-    auto const raw = random_problem(d, {.agents = *between(0, 4).as("agents"),
-                                        .tasks = 2,
-                                        .plans = 2,
-                                        .levels = 4,
-                                        .general = true,
-                                        .preconditions = d.chance(50)});
+    auto raw = random_problem(d, {.agents = *between(0, 4).as("agents"),
+                                  .tasks = 2,
+                                  .plans = 2,
+                                  .levels = 4,
+                                  .general = true,
+                                  .preconditions = d.chance(50),
+                                  .sums = d.chance(50)});
+    if (d.chance(40)) raw.change_cost = 0.25 * d.below(5);
     built const b(raw);
-    rota::problem const problem{b.type, b.team, b.beliefs, b.participants,
-                                raw.idle ? rota::idling::allowed : rota::idling::forbidden};
+    rota::problem problem{b.type, b.team, b.beliefs, b.participants,
+                          raw.idle ? rota::idling::allowed : rota::idling::forbidden};
+    problem.change_cost = raw.change_cost;
     for (int i = 0; i < 4; ++i) {
       auto const& p = raw.plans[d.bits() % raw.plans.size()];
       // Often a valid one, sometimes a random or empty one.
@@ -71,15 +81,17 @@ TEST(reallocate, keeps_what_is_valid_and_good_enough) {
         auto const salt = d.bits();
         auto const some = reading::enumerate(raw, p, [&](raw_plan const& q, facts const& c) {
           return reading::judge(raw, q, c, true).valid() &&
-                 (salt >> (c.size() + static_cast<std::size_t>(value(q, c) + 8)) & 1u) != 0;
+                 (salt >> (c.size() + static_cast<std::size_t>(value_of(raw, q, c) + 32) % 32) & 1u) != 0;
         });
         if (some.plan != nullptr) current = some.atoms;
       }
-      std::optional<double> absolute;
-      if (d.chance(30)) absolute = 0.25 * d.below(8);
-      auto const expected = expect(raw, current, absolute);
+      rota::hysteresis h;
+      if (d.chance(30)) h.absolute = 0.25 * d.below(8);
+      if (d.chance(30)) h.relative = 0.125 * d.below(4);
+      raw.current = current;
+      auto const expected = expect(raw, h);
       auto const before = to_atoms(current);
-      auto const got = reallocate(problem, before, {absolute}, work);
+      auto const got = reallocate(problem, before, h, work);
       RC_ASSERT(got.reason == expected.why);
       RC_ASSERT(to_facts(got.atoms) == expected.atoms);
       RC_ASSERT(got.optimal);
@@ -87,14 +99,17 @@ TEST(reallocate, keeps_what_is_valid_and_good_enough) {
       RC_ASSERT(rota::apply(got.event, before).value() == got.atoms);
       if (got.plan) {
         auto const* q = reading::find_plan(raw, static_cast<int>(*got.plan));
-        RC_ASSERT(got.utility == value(*q, expected.atoms));
+        RC_ASSERT(got.utility == value_of(raw, *q, expected.atoms));
+        RC_ASSERT(got.changes == static_cast<std::size_t>(changes(raw, expected.atoms)));
+        costly += raw.change_cost > 0 && got.changes > 0;
+        relative += h.relative > 0 && got.reason == reason::kept_hysteresis;
         RC_ASSERT(reading::judge(raw, *q, expected.atoms, executes(current, *q)).valid());
         entry += q->entry_only && !reading::judge(raw, *q, expected.atoms, false).valid();
       }
       // Nothing left to do, except where a precondition no longer counts that did on entry.
-      auto const again = reallocate(problem, got.atoms, {absolute}, work);
+      auto const again = reallocate(problem, got.atoms, h, work);
       bool const entered = got.plan && reading::find_plan(raw, static_cast<int>(*got.plan))->entry_only;
-      if (!entered) RC_ASSERT(again.event.empty());
+      if (!entered && !restless(raw)) RC_ASSERT(again.event.empty());
       ++cases;
       ++reached[got.reason];
     }
@@ -103,6 +118,8 @@ TEST(reallocate, keeps_what_is_valid_and_good_enough) {
                  reason::kept_hysteresis, reason::no_valid_allocation})
     EXPECT_GE(reached[r] * 100, cases * 2) << static_cast<int>(r) << ": " << reached[r] << "/" << cases;
   EXPECT_GE(entry, 10);
+  EXPECT_GE(costly * 100, cases);
+  EXPECT_GE(relative, 20);
 }
 
 TEST(reallocate, a_steady_loop_allocates_nothing) {

@@ -45,8 +45,7 @@ struct fixed_utility {
   double const scaled = u * fixed_utility::units_per_one;  // exact: a power of two
   auto units = static_cast<std::int64_t>(scaled);
   double const rest = scaled - static_cast<double>(units);
-  if (rest >= 0.5) ++units;
-  if (rest <= -0.5) --units;
+  units += static_cast<int>(rest >= 0.5) - static_cast<int>(rest <= -0.5);
   return fixed_utility{units};
 }
 

@@ -40,6 +40,7 @@ private:
   using value = slot_graph::value;
   static constexpr std::size_t crowd = 16;  // agents a slot from which on a sample says more than an auction
   static constexpr unsigned quarter = 2;    // as a shift
+  static constexpr value captive = std::numeric_limits<value>::max();  // the bid of who has no second slot
 
   void place(slot_graph& graph, row_index a) {
     if (!graph.place(a)) homeless_ = std::min(homeless_, a);
@@ -66,7 +67,7 @@ private:
     auto const price = graph.prices();
     auto const [best, second, j] = kernel::best_two(graph.problem().row(a), price.data(), graph.slots());
     if (!graph.problem().present(a, j)) return wait(a);
-    bid_[a] = price[j] + std::min(best - second, max_reach);
+    bid_[a] = second < absent / 2 ? captive : price[j] + (best - second);
     if (graph.count(j) < graph.bounds(j).upper) {
       graph.put(a, static_cast<slot>(j));
       return slot_graph::nobody;
@@ -74,14 +75,17 @@ private:
     if (bids_left_ == 0 || graph.count(j) == 0) return wait(a);
     --bids_left_;
     auto const [rival, next] = least_bids(graph, j);
-    if (bid_[a] > bid_[rival]) {
+    auto const stays = bid_[rival];
+    if (bid_[a] > stays) {
       graph.take(rival);
       graph.put(a, static_cast<slot>(j));
-      price[j] = std::min(next, bid_[a]);
+      auto const least = std::min(next, bid_[a]);
+      price[j] = least == captive ? stays : least;
       return rival;
     }
-    if (bid_[rival] == price[j]) return wait(a);
-    price[j] = bid_[rival];
+    if (stays == price[j] || bid_[a] == captive) return wait(a);
+    price[j] =
+        stays == captive ? bid_[a] + 1 : stays;  // where nobody inside can leave, any price will do that a will not pay
     return a;
   }
   row_index wait(row_index a) {
@@ -142,8 +146,9 @@ private:
       auto const some = place_some(graph, shift);
       for (std::size_t k = 0; k < graph.slots(); ++k) graph.set_bounds(k, scaled(bounds_[k], some, agents));
       graph.open_places(some);
-      if (graph.balance(limit) == slot_graph::flow::interrupted) break;
-      graph.normalise();
+      bool const interrupted = graph.balance(limit) == slot_graph::flow::interrupted;
+      if (!graph.normalise()) std::fill(graph.prices().begin(), graph.prices().end(), 0);
+      if (interrupted) break;
       graph.clear();
     }
     graph.clear();
@@ -188,7 +193,7 @@ private:
     if (margins_.empty()) return 0;
     auto const at = margins_.begin() + static_cast<std::ptrdiff_t>(margins_.size() / 4);
     std::nth_element(margins_.begin(), at, margins_.end());
-    return *at;
+    return std::min(*at, max_reach);  // who has one slot only prefers it beyond any number
   }
   [[nodiscard]] static constexpr bool chosen(row_index a, unsigned shift) noexcept {
     return mixed(a) <= ~std::uint32_t{0} >> shift;

@@ -1,0 +1,479 @@
+// The additive solver against enumeration and GLPK: optimum, canonical choice, certificate; warm against cold; limits.
+#include "search/dense_world.hpp"
+#include "support/allocation_counter.hpp"
+
+#include <rota/search/additive.hpp>
+#include <rota/search/ties.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace additive_test {
+
+using namespace dense_world;
+using rota::dense::additive_end;
+using rota::dense::additive_outcome;
+using rota::dense::additive_solver;
+using rota::dense::instance;
+using rota::dense::row_index;
+using rota::dense::slot;
+using rota::dense::slot_bounds;
+
+/// A problem as the solver wants it. Owns what the instance views.
+struct dense {
+  explicit dense(problem const& p) : part(p.part), agents(p.agents) {
+    for (auto const& u : p.utility) utility.push_back(u.value_or(rota::dense::absent));
+    for (auto const& [lower, upper] : p.bounds) bounds.push_back({lower, upper});
+  }
+  [[nodiscard]] instance view() const {
+    instance in{agents, utility, bounds};
+    in.taking_part = part;
+    return in;
+  }
+
+  std::vector<std::int64_t> utility;
+  std::vector<slot_bounds> bounds;
+  std::vector<unsigned char> part;
+  std::size_t agents;
+};
+
+std::vector<int> slots_of(additive_solver const& solver) {
+  std::vector<int> x;
+  for (auto const s : solver.assignment()) x.push_back(s == rota::dense::no_slot ? -1 : static_cast<int>(s));
+  return x;
+}
+
+/// The total of an assignment within the bounds, or nothing.
+std::optional<std::int64_t> valid_total(problem const& p, std::vector<int> const& x) {
+  std::vector<unsigned> count(p.slots, 0);
+  std::int64_t total = 0;
+  for (std::size_t a = 0; a < p.agents; ++a) {
+    if ((x[a] >= 0) != (p.part[a] != 0)) return std::nullopt;
+    if (x[a] < 0) continue;
+    auto const& u = p.at(a, static_cast<std::size_t>(x[a]));
+    if (!u) return std::nullopt;
+    total += *u;
+    ++count[static_cast<std::size_t>(x[a])];
+  }
+  for (std::size_t s = 0; s < p.slots; ++s)
+    if (count[s] < p.bounds[s].first || count[s] > p.bounds[s].second) return std::nullopt;
+  return total;
+}
+
+/// What the prices prove that nothing can exceed: Σ_a max_k (u − p) + Σ_k (p_k > 0 ? p_k·upper : p_k·lower).
+long double proven(problem const& p, additive_solver const& solver) {
+  auto const price = solver.prices();
+  long double most = 0;  // 64 bits of mantissa: exact for what is drawn here
+  for (std::size_t a = 0; a < p.agents; ++a) {
+    if (!p.part[a]) continue;
+    auto best = std::numeric_limits<long double>::lowest();
+    for (std::size_t s = 0; s < p.slots; ++s)
+      if (p.at(a, s)) best = std::max(best, static_cast<long double>(*p.at(a, s)) - static_cast<long double>(price[s]));
+    most += best;
+  }
+  for (std::size_t s = 0; s < p.slots; ++s)
+    most += static_cast<long double>(price[s]) * (price[s] > 0 ? solver.bounds(s).upper : solver.bounds(s).lower);
+  return most;
+}
+
+/// The tightened bounds follow from those of the problem: each lies inside, and none excludes a valid assignment's count.
+void check_bounds(problem const& p, additive_solver const& solver) {
+  for (std::size_t s = 0; s < p.slots; ++s) {
+    RC_ASSERT(solver.bounds(s).lower >= p.bounds[s].first);
+    RC_ASSERT(solver.bounds(s).upper <= p.bounds[s].second);
+  }
+}
+
+void mutate(dice& d, flavour const& f, problem& p, std::vector<row_index>& changed) {
+  changed.clear();
+  int const one_in = 1 + d.below(12);
+  for (std::size_t a = 0; a < p.agents; ++a) {
+    if (d.below(one_in) != 0) continue;
+    changed.push_back(static_cast<row_index>(a));
+    for (std::size_t s = 0; s < p.slots; ++s)
+      if (d.chance(50)) p.utility[a * p.slots + s] = draw_utility(d, f);
+    if (d.chance(20)) p.part[a] ^= 1;
+  }
+  if (d.chance(30)) {
+    auto const lower = static_cast<unsigned>(d.below(3));
+    p.bounds[static_cast<std::size_t>(d.below(static_cast<int>(p.slots)))] = {
+        lower, lower + static_cast<unsigned>(d.below(6 + static_cast<int>(p.agents / p.slots)))};
+  }
+}
+
+struct shares {
+  int cases = 0, feasible = 0, tied = 0, partial = 0, warm = 0, interrupted = 0, stuck = 0, shortage = 0;
+};
+
+/// One problem against enumeration.
+void agree(problem const& p, additive_solver& solver, shares& s) {
+  dense const d(p);
+  auto const expected = enumerate(p);
+  auto const got = solver.solve(d.view());
+  ++s.cases;
+  RC_ASSERT(got.found() == expected.has_value());
+  s.stuck += got.end == additive_end::agent_stuck;
+  s.shortage += got.end == additive_end::slot_short;
+  if (!expected) return;
+  ++s.feasible;
+  s.partial += std::count(p.part.begin(), p.part.end(), 0) > 0;
+  RC_ASSERT(got.end == additive_end::optimal);
+  RC_ASSERT(got.utility == expected->total);
+  RC_ASSERT(got.bound == expected->total);
+  RC_ASSERT(slots_of(solver) == expected->slot);
+  RC_ASSERT(proven(p, solver) == static_cast<long double>(expected->total));
+  check_bounds(p, solver);
+}
+
+TEST(additive_solver, is_what_enumeration_finds_first) {
+  for (int levels : {1, 3, 10, 1000}) {
+    shares s;
+    additive_solver solver;
+    EXPECT_TRUE(rc::check([&] {
+      dice d(*small_world::any_seed().as("seed"));
+      agree(random_problem(d, {.agents = 6, .slots = 4, .levels = levels}), solver, s);
+    }));
+    EXPECT_GE(s.feasible * 100, s.cases * 30);
+    EXPECT_GE(s.stuck * 100, s.cases * 5);
+    EXPECT_GE(s.shortage * 100, s.cases * 5);
+    EXPECT_GE(s.partial * 100, s.feasible * 10);
+  }
+}
+
+/// One problem too large to enumerate, against GLPK.
+void agree_with_glpk(problem const& p, additive_solver& solver, shares& s) {
+  dense const d(p);
+  auto const expected = greatest_by_glpk(p);
+  auto const got = solver.solve(d.view());
+  ++s.cases;
+  RC_ASSERT(got.found() == expected.has_value());
+  if (!expected) return;
+  ++s.feasible;
+  RC_ASSERT(got.utility == *expected);
+  RC_ASSERT(valid_total(p, slots_of(solver)) == expected);
+  RC_ASSERT(proven(p, solver) == static_cast<long double>(*expected));
+}
+
+TEST(additive_solver, is_as_good_as_glpk) {
+  for (auto const& f :
+       {flavour{.agents = 40, .slots = 12, .levels = 1000}, flavour{.agents = 60, .slots = 3, .levels = 3},
+        flavour{.agents = 200, .slots = 6, .levels = 100000}, flavour{.agents = 25, .levels = 50, .squares = true}}) {
+    shares s;
+    additive_solver solver;
+    EXPECT_TRUE(rc::check([&] {
+      dice d(*small_world::any_seed().as("seed"));
+      agree_with_glpk(random_problem(d, f), solver, s);
+    }));
+    EXPECT_GE(s.feasible * 100, s.cases * 20) << f.agents;
+  }
+}
+
+TEST(additive_solver, warm_is_cold) {
+  for (auto const& f :
+       {flavour{.agents = 8, .slots = 5, .levels = 3}, flavour{.agents = 40, .slots = 10, .levels = 10},
+        flavour{.agents = 250, .slots = 4, .levels = 1000000}, flavour{.agents = 12, .levels = 4, .squares = true}}) {
+    shares s;
+    additive_solver warm;
+    EXPECT_TRUE(rc::check([&] {
+      dice d(*small_world::any_seed().as("seed"));
+      auto p = random_problem(d, f);
+      (void)warm.solve(dense(p).view());
+      std::vector<row_index> changed;
+      for (int step = 0; step < 8; ++step) {
+        mutate(d, f, p, changed);
+        dense const now(p);
+        auto const got = warm.resolve(now.view(), changed);
+        additive_solver cold;
+        auto const expected = cold.solve(now.view());
+        RC_ASSERT(got.end == expected.end);
+        RC_ASSERT(got.witness == expected.witness);
+        RC_ASSERT(got.utility == expected.utility);
+        ++s.cases;
+        s.warm += got.warm;
+        if (!got.found()) continue;
+        RC_ASSERT(slots_of(warm) == slots_of(cold));
+        RC_ASSERT(proven(p, warm) == static_cast<long double>(got.utility));
+      }
+    }));
+    EXPECT_GE(s.warm * 100, s.cases * 20) << f.agents;
+  }
+}
+
+TEST(additive_solver, permuted_agents_get_the_same_slots) {
+  int tied = 0;
+  EXPECT_TRUE(rc::check([&] {
+    dice d(*small_world::any_seed().as("seed"));
+    // Distinct totals, by the rule that breaks ties between agents whatever row they stand in.
+    auto const n = static_cast<std::size_t>(2 + d.below(30));
+    auto const m = static_cast<std::size_t>(2 + d.below(4));
+    std::vector<std::int64_t> keys(n * m);
+    for (auto& k : keys) k = d.below(10) * (std::int64_t{1} << 30) + d.below(1 << 20);
+    std::vector<slot_bounds> const bounds(m, {0, static_cast<std::uint32_t>(n / m + 1)});
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), 0u);
+    d.shuffle(order);
+    std::vector<std::int64_t> shuffled;
+    for (auto const a : order)
+      shuffled.insert(shuffled.end(), keys.begin() + static_cast<std::ptrdiff_t>(a * m),
+                      keys.begin() + static_cast<std::ptrdiff_t>((a + 1) * m));
+    additive_solver first, second;
+    auto const x = first.solve({n, keys, bounds});
+    auto const y = second.solve({n, shuffled, bounds});
+    RC_ASSERT(x.utility == y.utility);
+    for (std::size_t i = 0; i < n; ++i) RC_ASSERT(second.assignment()[i] == first.assignment()[order[i]]);
+    tied += n > 10;
+  }));
+  EXPECT_GT(tied, 0);
+}
+
+TEST(additive_solver, within_any_limit_is_valid_and_says_how_far_off) {
+  for (auto const& f :
+       {flavour{.agents = 60, .slots = 10, .levels = 50}, flavour{.agents = 150, .slots = 8, .levels = 1000}}) {
+    shares s;
+    EXPECT_TRUE(rc::check([&] {
+      dice d(*small_world::any_seed().as("seed"));
+      auto const p = random_problem(d, f);
+      dense const in(p);
+      additive_solver cold, limited;
+      auto const best = cold.solve(in.view());
+      auto const got = limited.solve(in.view(), {static_cast<std::uint64_t>(d.below(300)), {}});
+      RC_ASSERT(got.found() == best.found());
+      ++s.cases;
+      if (!best.found()) return;
+      s.interrupted += got.end == additive_end::interrupted;
+      RC_ASSERT(got.utility <= best.utility);
+      RC_ASSERT(got.bound >= best.utility);
+      RC_ASSERT(valid_total(p, slots_of(limited)) == got.utility);
+      // And it is as good as new.
+      RC_ASSERT(limited.resolve(in.view(), {}).utility == best.utility);
+      RC_ASSERT(slots_of(limited) == slots_of(cold));
+    }));
+    EXPECT_GE(s.interrupted * 100, s.cases * 10) << f.agents;
+  }
+}
+
+TEST(additive_solver, stops_when_asked_to) {
+  dice d(7);
+  auto p = random_problem(d, {.agents = 200, .slots = 8, .levels = 1000, .forbidden = 0});
+  p.agents = 200;
+  p.slots = 8;
+  p.part.assign(200, 1);
+  p.utility.clear();
+  for (std::size_t i = 0; i < 1600; ++i) p.utility.push_back(d.below(1000));
+  p.bounds.assign(8, {0, 25});
+  int asked = 0;
+  auto const third_time = [&] { return ++asked >= 3; };
+  additive_solver solver;
+  auto const got = solver.solve(dense(p).view(), {std::numeric_limits<std::uint64_t>::max(), third_time});
+  EXPECT_EQ(got.end, additive_end::interrupted);
+  EXPECT_GT(got.bound, got.utility);
+  EXPECT_EQ(valid_total(p, slots_of(solver)), got.utility);
+}
+
+// As large as the preconditions allow: sums must neither wrap nor meet what marks an absent pair.
+TEST(additive_solver, at_the_limits_of_its_numbers) {
+  EXPECT_TRUE(rc::check([&] {
+    dice d(*small_world::any_seed().as("seed"));
+    auto p = random_problem(d, {.agents = 6, .slots = 4, .levels = 3});
+    auto const reach = rota::dense::max_reach / static_cast<std::int64_t>(p.slots + 2);
+    auto const total = rota::dense::max_total / static_cast<std::int64_t>(std::max<std::size_t>(p.agents, 1));
+    for (auto& u : p.utility)
+      if (u) *u = *u * std::min(reach, total);
+    additive_solver solver;
+    shares s;
+    agree(p, solver, s);
+    std::vector<row_index> changed;
+    for (int step = 0; step < 6; ++step) {  // prices must not drift away either
+      mutate(d, {.levels = 3}, p, changed);
+      for (auto const a : changed)
+        for (std::size_t k = 0; k < p.slots; ++k)
+          if (auto& u = p.utility[a * p.slots + k]; u && *u > -2 && *u < 2) *u *= std::min(reach, total);
+      dense const now(p);
+      auto const got = solver.resolve(now.view(), changed);
+      auto const expected = enumerate(p);
+      RC_ASSERT(got.found() == expected.has_value());
+      if (expected) RC_ASSERT(got.utility == expected->total);
+    }
+  }));
+}
+
+TEST(additive_solver, impossible_problems_have_a_witness_and_leave_it_usable) {
+  using rota::dense::absent;
+  additive_solver solver;
+  auto solve = [&](std::vector<std::int64_t> const& u, std::vector<slot_bounds> const& b) {
+    return solver.solve({u.size() / b.size(), u, b});
+  };
+  auto const more_needed = solve({1, 1}, {{2, 2}, {1, 1}});
+  EXPECT_EQ(more_needed.end, additive_end::slot_short) << "one agent, three needed";
+  EXPECT_EQ(solve({1, 1}, {{2, 1}, {0, 1}}).end, additive_end::slot_short) << "lower above upper";
+  auto const forbidden = solve({1, 1, absent, absent}, {{0, 2}, {0, 2}});
+  EXPECT_EQ(forbidden.end, additive_end::agent_stuck);
+  EXPECT_EQ(forbidden.witness, 1u);
+  auto const unreachable = solve({1, absent, 1, absent}, {{0, 2}, {1, 1}});
+  EXPECT_EQ(unreachable.end, additive_end::agent_stuck) << "one of them is needed where neither may go";
+  EXPECT_EQ(unreachable.witness, 0u);
+  EXPECT_EQ(solver.solve({0, {}, {}}).end, additive_end::optimal) << "nobody and nothing";
+  auto const fine = solve({1, 2, 5, 3}, {{1, 1}, {1, 1}});
+  EXPECT_EQ(fine.end, additive_end::optimal);
+  EXPECT_EQ(fine.utility, 7);
+}
+
+TEST(additive_solver, a_steady_loop_allocates_nothing) {
+  for (auto const& f : {flavour{.agents = 5, .slots = 4}, flavour{.agents = 200, .slots = 10}}) {
+    dice d(3);
+    problem p;
+    p.agents = static_cast<std::size_t>(f.agents);
+    p.slots = static_cast<std::size_t>(f.slots);
+    p.part.assign(p.agents, 1);
+    p.bounds.assign(p.slots, {0, static_cast<unsigned>(p.agents / p.slots + 1)});
+    for (std::size_t i = 0; i < p.agents * p.slots; ++i) p.utility.push_back(d.below(1000000));
+    dense in(p);
+    additive_solver solver;
+    std::vector<row_index> changed{0};
+    auto const loop = [&] {
+      for (int step = 0; step < 200; ++step) {
+        changed[0] = static_cast<row_index>(d.below(f.agents));
+        for (std::size_t s = 0; s < p.slots; ++s) in.utility[changed[0] * p.slots + s] = d.below(1000000);
+        ASSERT_TRUE(solver.resolve(in.view(), changed).found());
+      }
+    };
+    ASSERT_TRUE(solver.solve(in.view()).found());
+    loop();
+    auto const before = rota_test::allocation_count();
+    loop();
+    ASSERT_TRUE(solver.solve(in.view()).found());
+    EXPECT_EQ(rota_test::allocation_count() - before, 0u);
+  }
+}
+
+// Ties -------------------------------------------------------------------------------------------------------------------
+
+TEST(tie_rule, keys_decide_ties_and_nothing_else) {
+  int unique = 0;
+  int hashed = 0;
+  EXPECT_TRUE(rc::check([&] {
+    dice d(*small_world::any_seed().as("seed"));
+    auto const p = random_problem(d, {.agents = 6, .slots = 4, .levels = 3});
+    auto const scale = std::int64_t{1} << d.below(50);  // the larger, the fewer bits are left
+    std::uint64_t greatest = 0;
+    dense in(p);
+    for (auto& u : in.utility) {
+      if (u == rota::dense::absent) continue;
+      u *= scale;
+      greatest = std::max(greatest, static_cast<std::uint64_t>(u < 0 ? -u : u));
+    }
+    if (!rota::dense::fits(p.agents, p.slots, greatest)) return;
+    rota::dense::tie_rule const rule(p.agents, p.slots, greatest);
+    auto keyed = in;
+    for (std::size_t a = 0; a < p.agents; ++a)
+      rule.keys(a, in.utility.data() + a * p.slots, keyed.utility.data() + a * p.slots);
+    for (std::size_t i = 0; i < in.utility.size(); ++i) {
+      if (in.utility[i] == rota::dense::absent) {
+        RC_ASSERT(keyed.utility[i] == rota::dense::absent);
+      } else {
+        RC_ASSERT(rule.utility(keyed.utility[i]) == in.utility[i]);
+        RC_ASSERT(rule.key(in.utility[i], i / p.slots, i % p.slots) == keyed.utility[i]);
+        auto const size = static_cast<std::uint64_t>(keyed.utility[i] < 0 ? -keyed.utility[i] : keyed.utility[i]);
+        RC_ASSERT(rota::dense::fits(p.agents, p.slots, size));
+      }
+    }
+    additive_solver plain, by_key;
+    auto const expected = plain.solve(in.view());
+    auto view = keyed.view();
+    view.unique = rule.unique();
+    auto const got = by_key.solve(view);
+    RC_ASSERT(got.end == expected.end);
+    if (!got.found()) return;
+    RC_ASSERT(rule.utility(got.utility) == expected.utility);
+    if (!rule.unique()) return void(++hashed);
+    ++unique;
+    RC_ASSERT(slots_of(by_key) == slots_of(plain));
+  }));
+  EXPECT_GE(unique, 100);
+  EXPECT_GE(hashed, 30);
+}
+
+TEST(tie_rule, a_large_team_of_equals_is_told_apart) {
+  rota::dense::tie_rule const rule(1000, 20, 1000);
+  EXPECT_FALSE(rule.unique());
+  std::vector<std::int64_t> const row(20, 7);
+  std::vector<std::int64_t> first(20), second(20);
+  rule.keys(3, row.data(), first.data());
+  rule.keys(4, row.data(), second.data());
+  EXPECT_NE(first, second);
+  EXPECT_GT(*std::max_element(first.begin(), first.end()), *std::min_element(first.begin(), first.end()));
+}
+
+// Kernels ----------------------------------------------------------------------------------------------------------------
+
+#ifdef ROTA_HAS_LANES
+TEST(kernel, lanes_compute_what_plain_loops_do) {
+  namespace wide = rota::dense::wide;
+  if (!wide::pays(8, 8)) GTEST_SKIP() << "this processor has no AVX2";
+  EXPECT_TRUE(rc::check([&] {
+    dice d(*small_world::any_seed().as("seed"));
+    auto const n = static_cast<std::size_t>(8 + d.below(60));
+    int const levels = d.chance(50) ? 4 : 1000;
+    auto draw = [&] {
+      std::vector<std::int64_t> v(n);
+      for (auto& x : v) x = d.chance(5) ? rota::dense::absent : d.below(levels) - levels / 2;
+      return v;
+    };
+    auto const worth = draw();
+    std::vector<std::int64_t> price(n);
+    for (auto& x : price) x = d.below(levels);
+
+    std::size_t best = 0;
+    for (std::size_t k = 0; k < n; ++k)
+      if (worth[k] - price[k] > worth[best] - price[best]) best = k;
+    RC_ASSERT(wide::best(worth.data(), price.data(), n) == best);
+    auto second = rota::dense::row_leaders::nothing;
+    for (std::size_t k = 0; k < n; ++k)
+      if (k != best) second = std::max(second, worth[k] - price[k]);
+    auto const leaders = wide::best_two(worth.data(), price.data(), n);
+    RC_ASSERT(leaders.at == best);
+    RC_ASSERT(leaders.first == worth[best] - price[best]);
+    RC_ASSERT(leaders.second == second);
+
+    constexpr std::int64_t limit = std::int64_t{1} << 60;
+    std::vector<std::int64_t> label(n, limit), via(n, -1);
+    for (std::size_t k = 0; k < n; ++k)
+      if (d.chance(50)) label[k] = d.below(levels);
+    auto expected_label = label, expected_via = via;
+    rota::dense::row_entry least{limit, n};
+    for (std::size_t k = 0; k < n; ++k) {
+      auto const offered = 5 + price[k] - worth[k];
+      if (offered < expected_label[k]) expected_label[k] = offered, expected_via[k] = 42;
+      if (expected_label[k] < least.value) least = {expected_label[k], k};
+    }
+    auto const relaxed = wide::relax(5, price.data(), worth.data(), 42, label.data(), via.data(), n, limit);
+    RC_ASSERT(label == expected_label);
+    RC_ASSERT(via == expected_via);
+    RC_ASSERT(relaxed.value == least.value && (relaxed.value == limit || relaxed.at == least.at));
+    auto const found = wide::least(label.data(), n, limit);
+    RC_ASSERT(found.value == least.value && (found.value == limit || found.at == least.at));
+
+    auto most = draw();
+    std::vector<std::int64_t> who(n, 0);
+    auto expected_most = most, expected_who = who;
+    for (std::size_t k = 0; k < n; ++k)
+      if (worth[k] - 3 > expected_most[k]) expected_most[k] = worth[k] - 3, expected_who[k] = 9;
+    wide::raise(worth.data(), 3, 9, most.data(), who.data(), n);
+    RC_ASSERT(most == expected_most);
+    RC_ASSERT(who == expected_who);
+
+    auto const from = static_cast<std::size_t>(d.below(static_cast<int>(n)));
+    auto tight = from;
+    while (tight < n && worth[tight] + 2 < price[tight]) ++tight;
+    RC_ASSERT(wide::first_tight(worth.data(), 2, price.data(), from, n) == tight);
+  }));
+}
+#endif
+
+}  // namespace additive_test
