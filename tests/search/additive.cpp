@@ -303,6 +303,27 @@ TEST(additive_solver, at_the_limits_of_its_numbers) {
   }));
 }
 
+// Where all bounds are exact nothing trades with the sink, so each turn lifts the prices of the two slots over it.
+TEST(additive_solver, prices_that_climb_do_not_go_out_of_range) {
+  problem p;
+  p.agents = 2;
+  p.slots = 2;
+  p.part = {1, 1};
+  p.bounds = {{1, 1}, {1, 1}};
+  auto const much = rota::dense::max_reach / 4;
+  additive_solver solver;
+  std::vector<row_index> const both{0, 1};
+  for (int turn = 0; turn < 200; ++turn) {
+    // Everybody would rather be here, then there; agent 1 a little more so.
+    if (turn % 2 == 0) p.utility = {much - 1, -much, much, -much};
+    if (turn % 2 == 1) p.utility = {-much, much - 1, -much, much};
+    auto const got = turn == 0 ? solver.solve(dense(p).view()) : solver.resolve(dense(p).view(), both);
+    ASSERT_EQ(got.utility, enumerate(p)->total) << turn;
+    ASSERT_EQ(slots_of(solver), enumerate(p)->slot) << turn;
+    for (auto const price : solver.prices()) ASSERT_LE(std::abs(price), 4 * rota::dense::max_reach) << turn;
+  }
+}
+
 TEST(additive_solver, impossible_problems_have_a_witness_and_leave_it_usable) {
   using rota::dense::absent;
   additive_solver solver;
