@@ -10,6 +10,8 @@
 #include <rota/search/reallocate.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <initializer_list>
 #include <optional>
 #include <set>
@@ -105,8 +107,8 @@ std::vector<std::string> idle_agents(question const& q, allocation_atoms<vocabul
   return idle;
 }
 
-named_decision decide(question const& q, workspace& work) {
-  auto const r = reallocate(q.problem, q.current, hysteresis{}, work);
+named_decision decide(question const& q, workspace& work, search_budget const& budget) {
+  auto const r = reallocate(q.problem, q.current, hysteresis{}, work, budget);
   auto const gain = r.gain ? number(*r.gain) : std::string();
   switch (r.reason) {
   case reallocation_reason::first: return {false, "the team has no allocation yet"};
@@ -128,17 +130,18 @@ named_change named(question const& q, atom const& x) {
   return {q.who.name(x.agent), q.where.type != nullptr ? std::optional(plan()) : std::nullopt, q.task(x)};
 }
 
-named_answer named(question const& q, solution<vocabulary> const& s, workspace& work) {
+named_answer named(question const& q, solution<vocabulary> const& s, workspace& work, search_budget const& budget) {
   named_answer out;
   out.plan = q.where.name(q.where.plan(s.plan));
   out.utility = s.utility;
   out.optimal = s.optimal;
+  out.gap = s.gap;
   for (atom const& x : s.atoms) out.assignment.emplace_back(q.who.name(x.agent), q.task(x));
   out.idle = idle_agents(q, s.atoms);
   if (!q.has_current) return out;  // nothing to compare with: nothing is added or removed
   for (auto const& x : difference(q.current, s.atoms))
     (x.value == sign::plus ? out.added : out.removed).push_back(named(q, x.atom));
-  out.decision = decide(q, work);
+  out.decision = decide(q, work, budget);
   return out;
 }
 
@@ -190,16 +193,18 @@ std::string clauses(question const& q, solution<vocabulary> const& s, validity_r
 }
 
 std::string as_text(question const& q, solution<vocabulary> const& s, validity_report<vocabulary> const& report,
-                    std::string const& current_file, workspace& work) {
+                    std::string const& current_file, workspace& work, search_budget const& budget) {
   auto const& p = q.where.plan(s.plan);
   std::string out;
   auto const line = [&](std::string const& text) { out += printable(text) + '\n'; };
   line("plan     " + q.where.name(p) + " (" + std::to_string(p.id) + ")" +
        (q.where.type != nullptr ? ", best of " + counted(q.where.plans.size(), "plan") + " of " + q.where.type->name
                                 : ""));
-  line("utility  " + number(s.utility) + (s.optimal ? ", proved optimal" : ", not proved optimal"));
+  line("utility  " + number(s.utility) +
+       (s.optimal ? ", proved optimal" : ", at most " + number(s.gap) + " below the best"));
   if (s.runner_up)
-    line("next     " + q.where.name(q.where.plan(s.runner_up->plan)) + " with " + number(s.runner_up->utility));
+    line("next     " + q.where.name(q.where.plan(s.runner_up->plan)) + " with " + number(s.runner_up->utility) + ", " +
+         number(s.runner_up->distance) + " less");
   line("assignment");
   std::size_t width = 0;
   for (auto const a : q.problem.participants) width = std::max(width, q.who.name(a).size());
@@ -215,7 +220,7 @@ std::string as_text(question const& q, solution<vocabulary> const& s, validity_r
     line(std::string("  ") + (x.value == sign::plus ? "+ " : "- ") + q.who.name(x.atom.agent) + "  " +
          (q.where.type != nullptr ? q.where.name(q.where.plan(x.atom.plan)) + '/' : "") + q.task(x.atom));
   for (auto const& name : q.departed) line("  " + name + " is not in the table: it left");
-  auto const d = decide(q, work);
+  auto const d = decide(q, work, budget);
   line("decision");
   line(std::string("  a running team ") +
        (!d.keep     ? "adopts this: "
@@ -223,6 +228,16 @@ std::string as_text(question const& q, solution<vocabulary> const& s, validity_r
                     : "keeps what it has in " + current_file + ", without the event above: ") +
        d.reason);
   return out;
+}
+
+std::string as_text(search_report const& r) {
+  auto const& w = r.work;
+  char time[32];
+  std::snprintf(time, sizeof time, "%.1f us", r.microseconds);
+  return "search\n  " + counted(w.searches, "shortest-path tree") + ", " + counted(w.augmentations, "chain") +
+         " of agents moved, " + counted(w.relaxations, "step") + "\n  " + counted(w.nodes, "placement") +
+         " by branch and bound, " + counted(w.leaves, "allocation") + " evaluated, " + counted(w.pruned, "subtree") +
+         " left\n  " + time + '\n';
 }
 
 }  // namespace
@@ -245,7 +260,16 @@ outcome run_allocate(allocate_options const& o) {
   question const q{*where, who, worth, type, p, atoms_of(old, *where, who, o.current), !o.current.empty(), departed};
 
   workspace work;
-  auto const best = best_allocation(p, work);
+  using clock = std::chrono::steady_clock;
+  auto const start = clock::now();
+  auto const late = [&, limit = std::chrono::duration<double, std::milli>(o.deadline.value_or(0))] {
+    return clock::now() - start >= limit;
+  };
+  search_budget budget;
+  if (o.budget) budget.nodes = budget.relaxations = *o.budget;
+  if (o.deadline) budget.stop = late;
+  auto const best = best_allocation(p, work, budget);
+  std::chrono::duration<double, std::micro> const taken = clock::now() - start;
   if (!best) {
     std::string reason;
     for (auto const& r : best.error().plans) reason += (reason.empty() ? "" : "; ") + explain(r, q);
@@ -254,7 +278,12 @@ outcome run_allocate(allocate_options const& o) {
   }
   auto const report = validate(p, *type.find(best->plan), best->atoms);
   if (!report) throw std::logic_error("the allocation found is not valid: please report this");
-  return {o.json ? as_json(named(q, *best, work)) : as_text(q, *best, report, o.current, work), success};
+  std::optional<search_report> stats;
+  if (o.stats) stats = search_report{best->work, taken.count()};
+  if (!o.json) return {as_text(q, *best, report, o.current, work, budget) + (stats ? as_text(*stats) : ""), success};
+  auto answer = named(q, *best, work, budget);
+  answer.stats = stats;
+  return {as_json(answer), success};
 }
 
 }  // namespace rota::cli

@@ -51,6 +51,9 @@ struct allocate_options {
   std::string utilities;
   std::string current;  ///< empty: none
   bool no_idle = false;
+  std::optional<std::uint64_t> budget;  ///< steps; none: until done
+  std::optional<double> deadline;       ///< ms; none: until done
+  bool stats = false;
   bool json = false;
 };
 [[nodiscard]] outcome run_allocate(allocate_options const& o);

@@ -75,11 +75,19 @@ void add_allocate(CLI::App& program, command& chosen) {
   sub.add_flag("--no-idle", o->no_idle, "every agent must have a task");
   sub.add_option("--current", o->current, "JSON, as --json prints it: the allocation to compare with")
       ->check(check_not_empty);
+  sub.add_option("--budget", o->budget,
+                 "give up proving after so many steps (a step looks at one way to move an agent)")
+      ->check(within(std::uint64_t{0}, UINT64_MAX, "a whole number from 0 to 18446744073709551615"));
+  sub.add_option("--deadline", o->deadline,
+                 "give up proving after so many ms; what is found then depends on the machine")
+      ->check(within(0.0, 86'400'000.0, "a time from 0 to 86400000 ms"));
+  sub.add_flag("--stats", o->stats, "print what the search did");
   sub.add_flag("--json", o->json, "print JSON");
   sub.footer("Utilities count in steps of 2^-20, each cell rounded to the nearest (0.0000001 counts 0), so that\n"
              "equal tables give equal answers everywhere. They add up over agents; an idle agent counts 0.\n"
              "The event leads from --current to the best allocation; the decision says whether a running team\n"
              "would change at all, given the hysteresis of the plan and that equals change nothing.\n"
+             "A search that gives up prints the best valid allocation it found, and how far it may be from the best.\n"
              "Exit status: 0 found, 1 no valid allocation, 2 misuse or a wrong input file.");
 }
 

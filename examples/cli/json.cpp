@@ -198,6 +198,7 @@ std::string as_json(named_answer const& a) {
   out["plan"] = a.plan;
   out["utility"] = a.utility;
   out["optimal"] = a.optimal;
+  if (!a.optimal) out["gap"] = a.gap;
   out["assignment"] = list_of(
       a.assignment, [](auto const& pair) { return json_of(named_change{pair.first, std::nullopt, pair.second}); });
   out["idle"] = a.idle;
@@ -206,6 +207,17 @@ std::string as_json(named_answer const& a) {
   if (a.decision) {
     out["decision"]["keep"] = a.decision->keep;
     out["decision"]["reason"] = a.decision->reason;
+  }
+  if (a.stats) {
+    auto& stats = out["stats"];
+    auto const& work = a.stats->work;
+    stats["searches"] = work.searches;
+    stats["augmentations"] = work.augmentations;
+    stats["relaxations"] = work.relaxations;
+    stats["nodes"] = work.nodes;
+    stats["leaves"] = work.leaves;
+    stats["pruned"] = work.pruned;
+    stats["microseconds"] = a.stats->microseconds;
   }
   return out.dump() + '\n';
 }
@@ -230,7 +242,8 @@ named_allocation read_allocation(std::string const& file) {
     static std::map<std::string, type, std::less<>> const keys = {
         {"plan", type::discarded},   {"utility", type::number_float}, {"optimal", type::boolean},
         {"assignment", type::array}, {"idle", type::array},           {"event", type::object},
-        {"decision", type::object},  {"reason", type::string}};
+        {"decision", type::object},  {"reason", type::string},        {"gap", type::number_float},
+        {"stats", type::object}};
     auto const at = keys.find(key);
     need(at != keys.end(), '/' + key, "an allocation has no such key");
     bool const fits = at->second == type::discarded || at->second == value.type() ||

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rota/adapters/alica/model.hpp>
+#include <rota/search/limits.hpp>
 #include <rota/sim/fwd.hpp>
 
 #include <cstdint>
@@ -30,16 +31,24 @@ struct named_decision {
   std::string reason;
 };
 
+/// What a search did and how long it took.
+struct search_report {
+  search_work work;
+  double microseconds = 0;
+};
+
 /// What `rota allocate` found, in names only.
 struct named_answer {
   std::string plan;
   double utility = 0;
   bool optimal = false;
+  double gap = 0;  ///< how far the best may be, if this is not proved to be it
   std::vector<std::pair<std::string, std::string>> assignment;  ///< agent, task
   std::vector<std::string> idle;
   std::vector<named_change> added;
   std::vector<named_change> removed;
   std::optional<named_decision> decision;
+  std::optional<search_report> stats;
 };
 [[nodiscard]] std::string as_json(named_answer const& a);
 

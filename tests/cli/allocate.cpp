@@ -170,6 +170,49 @@ TEST_F(rota_allocate, an_agent_that_left_is_removed) {
   EXPECT_EQ(json::parse(r.output)["event"]["removed"], json::parse(R"([{"agent": "r9", "task": "Attack"}])"));
 }
 
+TEST_F(rota_allocate, gives_up_where_it_is_told_to_and_says_how_far_off_it_may_be) {
+  sandbox box;
+  auto const csv = box.write("u.csv", "agent,Attack,Defend,Support\na,9,5,1\nb,9,6,1\nc,9,7,1\nd,9,8,1\ne,9,8,5\n");
+  auto const ask = [&](std::vector<std::string> const& more) {
+    std::vector<std::string> question = {"allocate", "--plan", shipped(play), "--utilities", csv};
+    question.insert(question.end(), more.begin(), more.end());
+    auto const r = rota_program(question);
+    EXPECT_EQ(r.status, 0) << r.complaint;
+    return r.output;
+  };
+  auto const best = json::parse(ask({"--json"}), nullptr, false);
+  EXPECT_EQ(best["optimal"], true);
+  EXPECT_FALSE(best.contains("gap"));
+  EXPECT_FALSE(best.contains("stats"));
+  for (std::vector<std::string> const& limit : {std::vector<std::string>{"--budget", "0"}, {"--deadline", "0"}}) {
+    auto all = limit;
+    all.push_back("--json");
+    auto const some = json::parse(ask(all), nullptr, false);
+    EXPECT_EQ(some["optimal"], false);
+    EXPECT_LT(some["utility"], best["utility"]);
+    EXPECT_GE(some["utility"].get<double>() + some["gap"].get<double>(), best["utility"].get<double>());
+    EXPECT_NE(ask(limit).find("at most"), std::string::npos);
+  }
+  EXPECT_EQ(json::parse(ask({"--json", "--budget", "100000", "--deadline", "60000"}), nullptr, false), best);
+
+  auto const stats = json::parse(ask({"--json", "--stats"}), nullptr, false)["stats"];
+  EXPECT_GE(stats["searches"], 1);
+  EXPECT_GE(stats["augmentations"], 1);
+  EXPECT_GE(stats["relaxations"], 1);
+  EXPECT_GT(stats["microseconds"], 0);
+  EXPECT_NE(ask({"--stats"}).find("\nsearch\n"), std::string::npos);
+
+  // What it prints then is an allocation to compare with, too.
+  auto const now = box.write("now.json", ask({"--json", "--stats", "--budget", "0"}));
+  EXPECT_NE(ask({"--current", now}).find("gain "), std::string::npos);
+  for (std::vector<std::string> const& wrong :
+       {std::vector<std::string>{"--budget", "-1"}, {"--budget", "1.5"}, {"--deadline", "-1"}, {"--deadline", "nan"}}) {
+    std::vector<std::string> question = {"allocate", "--plan", shipped(play), "--utilities", csv};
+    question.insert(question.end(), wrong.begin(), wrong.end());
+    expect_complaint(rota_program(question), {wrong[0]});
+  }
+}
+
 TEST_F(rota_allocate, no_valid_allocation_is_exit_1_with_a_reason) {
   sandbox box;
   auto const reason = [&](std::string const& csv, bool no_idle) {

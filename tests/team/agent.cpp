@@ -55,6 +55,25 @@ TEST_F(agent_test, enters_alone_decides_and_leaves) {
   EXPECT_EQ(think(a, sees(1)).reason, decision_reason::not_executing);
 }
 
+TEST_F(agent_test, changes_no_more_readily_than_its_options_say) {
+  auto const swaps_for = [&](rota::agent_options const& options, double gain) {
+    auto a = robot_in_play(1, options);
+    (void)a.receive(says(2, 1, defend), start);
+    view v = sees(1);
+    v.attack[2] = 1 + gain;  // two robots would change
+    auto const before = a.believes(play_id)->atoms();
+    (void)think(a, sees(1));
+    EXPECT_NE(a.believes(play_id)->atoms(), before);
+    return think(a, v).reason == decision_reason::reallocated;
+  };
+  EXPECT_TRUE(swaps_for({}, 0.25));
+  EXPECT_FALSE(swaps_for({.change_cost = 0.25}, 0.25));
+  EXPECT_TRUE(swaps_for({.change_cost = 0.0625}, 0.25));
+  EXPECT_FALSE(swaps_for({.hysteresis = {.absolute = 0.25}}, 0.25));
+  EXPECT_TRUE(swaps_for({.hysteresis = {.absolute = 0.25}}, 0.5));
+  EXPECT_FALSE(swaps_for({.hysteresis = {.relative = 0.5}}, 0.5)) << "half of 1.125 is more";
+}
+
 TEST_F(agent_test, a_message_is_one_of_the_four_cases) {
   auto a = robot_in_play(1);
   auto hear = [&, n = std::uint64_t{0}](std::optional<soccer::task> task) mutable {

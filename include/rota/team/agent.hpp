@@ -180,8 +180,9 @@ public:
       d.own = t->believed.part(self_);
       return d;
     }
-    problem<V, Beliefs> const p{pt, members, beliefs, t->believed.participants(), idle};
-    auto next = reallocate(p, t->believed.atoms(), hysteresis{}, space, budget);
+    problem<V, Beliefs> p{pt, members, beliefs, t->believed.participants(), idle};
+    p.change_cost = options_.change_cost;
+    auto next = reallocate(p, t->believed.atoms(), options_.hysteresis, space, budget);
     d.event = impose(*t, next.atoms);
     d.why = next.reason;
     d.utility = next.utility;

@@ -85,6 +85,8 @@ struct agent_options {
   std::uint64_t incarnation = 1;              ///< must grow with every restart of the agent
   std::uint32_t confidence = 0;               ///< outranks the id in the stamp of claims
   bool resolution = true;                     ///< off: detect, but neither claim nor obey
+  rota::hysteresis hysteresis{};              ///< see `reallocate`
+  double change_cost = 0;                     ///< see `problem::change_cost`
 
   friend bool operator==(agent_options const&, agent_options const&) = default;
 };
