@@ -67,7 +67,7 @@ public:
   }
 
   /// The slot of each agent, `no_slot` for those who take no part. After an end that `found()` something.
-  [[nodiscard]] std::span<slot const> assignment() const noexcept { return graph_.homes(); }
+  [[nodiscard]] std::span<slot const> assignment() const noexcept { return graph_.who().homes(); }
   /// The price of each slot, and of the sink, which is 0.
   [[nodiscard]] std::span<std::int64_t const> prices() const noexcept { return std::as_const(graph_).prices(); }
   /// Lower and upper bound of slot k, with what the other slots cannot take or must have.
@@ -91,7 +91,7 @@ private:
   /// Puts the agents of changed rows where they are worth most now; false if one of them has no pair.
   bool replace(instance const& in, std::span<row_index const> changed) {
     for (auto const a : changed) {
-      if (graph_.home(a) != no_slot) {
+      if (graph_.who().home(a) != no_slot) {
         graph_.take(a);
         --agents_;
       }
@@ -157,7 +157,7 @@ private:
     if (!in.unique) canonical_.make(graph_);
     additive_outcome out;
     out.warm = warm;
-    out.bound = out.utility = graph_.total();
+    out.bound = out.utility = graph_.who().total();
     return counted(out);
   }
 
@@ -173,17 +173,17 @@ private:
     };
     auto const price = prices();
     for (std::size_t a = 0; a < in.agents; ++a) {
-      auto const here = graph_.home(a);
+      auto const here = graph_.who().home(a);
       if (here == no_slot) continue;
       auto const best = kernel::best(in.row(a), price.data(), in.slots());
       add(in.at(a, best) - price[best] - (in.at(a, here) - price[here]), 1);
     }
     for (std::size_t k = 0; k < in.slots(); ++k)
-      price[k] > 0 ? add(price[k], bounds(k).upper - graph_.count(k))
-                   : add(-price[k], graph_.count(k) - bounds(k).lower);
+      price[k] > 0 ? add(price[k], bounds(k).upper - graph_.who().count(k))
+                   : add(-price[k], graph_.who().count(k) - bounds(k).lower);
     additive_outcome out;
     out.end = additive_end::interrupted;
-    out.utility = graph_.total();
+    out.utility = graph_.who().total();
     auto const headroom =
         static_cast<std::uint64_t>(std::numeric_limits<value>::max() - std::max<value>(out.utility, 0));
     out.bound = out.utility + static_cast<value>(std::min(gap, headroom));
@@ -197,8 +197,8 @@ private:
       while (graph_.room(k) <= 0) ++k;
       return refused(additive_end::slot_short, k);
     }
-    auto least = graph_.first(stuck);
-    for (auto a = least; a != slot_graph::nobody; a = graph_.next(a)) least = std::min(least, a);
+    auto least = graph_.who().first(stuck);
+    for (auto a = least; a != membership::nobody; a = graph_.who().next(a)) least = std::min(least, a);
     return refused(additive_end::agent_stuck, least);
   }
 

@@ -30,7 +30,7 @@ public:
     for (row_index a = 0; a < in.agents; ++a)
       if (in.takes_part(a)) count(graph, a, +1);
     for (row_index a = 0; a < in.agents; ++a) {
-      if (!in.takes_part(a) || on_no_cycle(graph.home(a))) continue;
+      if (!in.takes_part(a) || on_no_cycle(graph.who().home(a))) continue;
       count(graph, a, -1);
       fix(graph, a);
     }
@@ -85,12 +85,12 @@ private:
 
   [[nodiscard]] static bool tight(slot_graph const& graph, row_index a, std::size_t k) {
     instance const& in = graph.problem();
-    auto const j = graph.home(a);
+    auto const j = graph.who().home(a);
     return k != j && in.at(a, k) - in.at(a, j) + graph.price(j) == graph.price(k);
   }
   /// Adds agent a to the movers of the arcs it could use, or takes it out.
   void count(slot_graph const& graph, row_index a, int change) {
-    std::size_t const j = graph.home(a);
+    std::size_t const j = graph.who().home(a);
     if (on_no_cycle(j)) return;
     for (std::size_t k = 0; k < graph.slots(); ++k) {
       if (!tight(graph, a, k)) continue;
@@ -104,7 +104,7 @@ private:
 
   /// The smallest slot for agent a, whom `count` has forgotten, as later agents can arrange it.
   void fix(slot_graph& graph, row_index a) {
-    std::size_t const home = graph.home(a);
+    std::size_t const home = graph.who().home(a);
     std::size_t k = 0;
     while (k < home && !tight(graph, a, k)) ++k;
     if (k == home) return;
@@ -120,8 +120,8 @@ private:
       } else if (k == graph.sink()) {
         graph.close_place(next);
       } else {
-        auto b = graph.first(k);
-        while (b <= a || !tight(graph, b, next)) b = graph.next(b);
+        auto b = graph.who().first(k);
+        while (b <= a || !tight(graph, b, next)) b = graph.who().next(b);
         count(graph, b, -1);
         graph.take(b);
         graph.put(b, static_cast<slot>(next));

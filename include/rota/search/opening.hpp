@@ -23,14 +23,14 @@ class opening {
 public:
   /// Places everybody who takes part; false if somebody has no pair at all. @pre `graph` holds nobody
   [[nodiscard]] bool play(slot_graph& graph, std::size_t agents, work_limit const& limit) {
-    homeless_ = slot_graph::nobody;
+    homeless_ = membership::nobody;
     if (agents <= crowd * graph.slots()) {
       auction(graph, agents);
     } else {
       sample(graph, agents, limit);
     }
     graph.open_places(agents);
-    return homeless_ == slot_graph::nobody;
+    return homeless_ == membership::nobody;
   }
 
   /// The first agent without any pair, or `nobody`.
@@ -55,11 +55,11 @@ private:
     bids_left_ = agents;
     if (one_each(graph, agents)) choose_for_slots(graph);
     for (row_index a = 0; a < in.agents; ++a)
-      if (in.takes_part(a) && graph.home(a) == no_slot)
-        for (auto next = a; next != slot_graph::nobody;) next = bid(graph, next);
+      if (in.takes_part(a) && graph.who().home(a) == no_slot)
+        for (auto next = a; next != membership::nobody;) next = bid(graph, next);
     graph.keep_ledgers();
     for (auto const a : waiting_)
-      if (graph.home(a) == no_slot) place(graph, a);  // who waited may have bid again
+      if (graph.who().home(a) == no_slot) place(graph, a);  // who waited may have bid again
   }
 
   /// Agent a goes to its best slot, or waits, or pushes somebody out, or meets a higher price. @return who bids next
@@ -68,11 +68,11 @@ private:
     auto const [best, second, j] = kernel::best_two(graph.problem().row(a), price.data(), graph.slots());
     if (!graph.problem().present(a, j)) return wait(a);
     bid_[a] = second < absent / 2 ? captive : price[j] + (best - second);
-    if (graph.count(j) < graph.bounds(j).upper) {
+    if (graph.who().count(j) < graph.bounds(j).upper) {
       graph.put(a, static_cast<slot>(j));
-      return slot_graph::nobody;
+      return membership::nobody;
     }
-    if (bids_left_ == 0 || graph.count(j) == 0) return wait(a);
+    if (bids_left_ == 0 || graph.who().count(j) == 0) return wait(a);
     --bids_left_;
     auto const [rival, next] = least_bids(graph, j);
     auto const stays = bid_[rival];
@@ -90,15 +90,15 @@ private:
   }
   row_index wait(row_index a) {
     waiting_.push_back(a);
-    return slot_graph::nobody;
+    return membership::nobody;
   }
   struct least_bid {
     row_index agent;
     value next;  // the least bid of the others
   };
   [[nodiscard]] least_bid least_bids(slot_graph const& graph, std::size_t j) const {
-    least_bid found{graph.first(j), std::numeric_limits<value>::max()};
-    for (auto a = graph.next(found.agent); a != slot_graph::nobody; a = graph.next(a)) {
+    least_bid found{graph.who().first(j), std::numeric_limits<value>::max()};
+    for (auto a = graph.who().next(found.agent); a != membership::nobody; a = graph.who().next(a)) {
       if (bid_[a] < bid_[found.agent]) {
         found = {a, bid_[found.agent]};
       } else {
@@ -127,7 +127,7 @@ private:
       auto const a = static_cast<row_index>(fan_[k]);
       if (price[k] == absent) {
         price[k] = 0;
-      } else if (graph.home(a) == no_slot) {
+      } else if (graph.who().home(a) == no_slot) {
         graph.put(a, static_cast<slot>(k));
         bid_[a] = price[k];
       }
@@ -204,7 +204,7 @@ private:
     return x ^ x >> 16;
   }
 
-  row_index homeless_ = slot_graph::nobody;
+  row_index homeless_ = membership::nobody;
   std::size_t bids_left_ = 0;
   std::vector<value> bid_;  // the price up to which an agent would stay in its slot, at least
   std::vector<row_index> waiting_;

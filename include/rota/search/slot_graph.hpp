@@ -2,7 +2,9 @@
 
 #include <rota/search/instance.hpp>
 #include <rota/search/kernels.hpp>
+#include <rota/search/ledgers.hpp>
 #include <rota/search/limits.hpp>
+#include <rota/search/membership.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -22,12 +24,7 @@ namespace rota::dense {
 /// Invariants: no arc has a negative reduced cost: nobody would rather be elsewhere at these prices; a slot that costs more
 /// than the sink has all its places, one that costs less the fewest. Hence, balanced, optimality.
 ///
-/// Slots that can hold many agents keep a ledger: for each other slot the greatest gain of moving a member there, and whose
-/// it is. An upper bound, since nobody looks for members who have left until their arc is about to be used. Members that
-/// were content with their slot by a margin, when prices were known well, *rest*: prices then say how little they can gain,
-/// and nobody asks them unless it comes to that.
-///
-/// Complexity: a search is O(s²) and a few reads of members that do not rest; memory O(n + s²).
+/// Complexity: a search is O(s²) and what it takes to repair a few entries of `ledgers`; memory O(n + s²).
 class slot_graph {
 public:
   using value = std::int64_t;
@@ -45,12 +42,7 @@ public:
   /// Nobody is placed, all prices are 0.
   void reset(instance const& in) {
     in_ = in;
-    auto const n = in.agents, s = in.slots();
-    home_.assign(n, no_slot);
-    worth_.resize(n);
-    next_.resize(n);
-    previous_.resize(n);
-    resting_.resize(n);
+    auto const s = in.slots();
     price_.assign(s + 1, 0);
     places_.assign(s, 0);
     label_.resize(s + 1);
@@ -60,22 +52,15 @@ public:
     settled_.resize(s + 1);
     targets_.resize(s + 1);
     bounds_.assign(in.bounds.begin(), in.bounds.end());
-    ledger_of_.assign(s, no_slot);
-    slot ledgers = 0;
-    for (std::size_t k = 0; k < s; ++k)
-      if (keeps_ledger(in.bounds[k])) ledger_of_[k] = ledgers++;
-    gain_.resize(ledgers * s);
-    mover_.resize(ledgers * s);
-    clear();
+    who_.reset(in.agents, s);
+    ledgers_.reset(in);
     surplus_ = 0;
     done_ = {};
   }
 
   /// The same agents and slots, with some other numbers; false if the slots now ask for other ledgers: then `reset`.
   [[nodiscard]] bool adopt(instance const& in) {
-    if (in.agents != home_.size() || in.slots() != slots()) return false;
-    for (std::size_t k = 0; k < slots(); ++k)
-      if (keeps_ledger(in.bounds[k]) != (ledger_of_[k] != no_slot)) return false;
+    if (in.agents != who_.homes().size() || in.slots() != slots() || !ledgers_.suit(in)) return false;
     in_ = in;
     done_ = {};
     return true;
@@ -83,22 +68,14 @@ public:
 
   /// Takes everybody out. Prices stay.
   void clear() {
-    head_.assign(slots(), nobody);
-    tail_.assign(slots(), nobody);
-    count_.assign(slots(), 0);
-    total_ = 0;
-    ledgers_kept_ = false;
-    std::fill(home_.begin(), home_.end(), no_slot);
-    std::fill(gain_.begin(), gain_.end(), no_gain);
-    std::fill(mover_.begin(), mover_.end(), nobody);
+    who_.reset(in_.agents, slots());
+    ledgers_.close();
   }
 
   [[nodiscard]] instance const& problem() const noexcept { return in_; }
   [[nodiscard]] std::size_t slots() const noexcept { return bounds_.size(); }
   [[nodiscard]] std::size_t sink() const noexcept { return bounds_.size(); }
-  [[nodiscard]] slot home(std::size_t a) const noexcept { return home_[a]; }
-  [[nodiscard]] std::span<slot const> homes() const noexcept { return home_; }
-  [[nodiscard]] std::uint32_t count(std::size_t k) const noexcept { return count_[k]; }
+  [[nodiscard]] membership const& who() const noexcept { return who_; }
   [[nodiscard]] slot_bounds bounds(std::size_t k) const noexcept { return bounds_[k]; }
   void set_bounds(std::size_t k, slot_bounds b) noexcept { bounds_[k] = b; }
   [[nodiscard]] value price(std::size_t k) const noexcept { return price_[k]; }
@@ -106,56 +83,24 @@ public:
   [[nodiscard]] std::span<value const> prices() const noexcept { return price_; }
   [[nodiscard]] work const& done() const noexcept { return done_; }
 
-  static constexpr row_index nobody = ~row_index{0};
-  /// The members of a slot: first(k), then next(a) until `nobody`.
-  [[nodiscard]] row_index first(std::size_t k) const noexcept { return head_[k]; }
-  [[nodiscard]] row_index next(row_index a) const noexcept { return next_[a]; }
-
   /// Begins to keep ledgers, with what members there are. Nothing may be moved by `balance` before. O(n·s)
-  void keep_ledgers() {
-    ledgers_kept_ = true;
-    for (row_index a = 0; a < home_.size(); ++a)
-      if (home_[a] != no_slot) write_down(a);
-  }
-
-  /// The utility of everybody where it is.
-  [[nodiscard]] value total() const noexcept { return total_; }
+  void keep_ledgers() { ledgers_.open(in_, who_); }
+  [[nodiscard]] bool has_ledger(std::size_t j) const noexcept { return ledgers_.has(j); }
+  /// From now on agents can `rest` who prefer their slot by `margin` at least, at the present prices. @pre holds nobody
+  void let_rest(value margin) { ledgers_.let_rest(price_, margin); }
 
   /// Puts agent a, who is nowhere, into slot j. O(1), or O(s) where j keeps a ledger.
   void put(row_index a, slot j) {
-    enter(a, j);
-    resting_[a] = 0;
-    previous_[a] = nobody;
-    next_[a] = head_[j];
-    (head_[j] == nobody ? tail_[j] : previous_[head_[j]]) = a;
-    head_[j] = a;
-  }
-  /// From now on, at the present prices, agents can `rest` who prefer their slot by `margin` at least. @pre holds nobody
-  void let_rest(value margin) {
-    rest_price_ = price_;
-    rest_margin_ = margin;
+    who_.put(a, j, in_.at(a, j));
+    ledgers_.write(in_, who_, a);
   }
   /// Puts agent a into slot j, behind those who do not rest. O(s). @pre j keeps a ledger, and a may rest there
   void rest(row_index a, slot j) {
-    enter(a, j);
-    resting_[a] = 1;
-    next_[a] = nobody;
-    previous_[a] = tail_[j];
-    (tail_[j] == nobody ? head_[j] : next_[tail_[j]]) = a;
-    tail_[j] = a;
+    who_.rest(a, j, in_.at(a, j));
+    ledgers_.write(in_, who_, a);
   }
-  [[nodiscard]] bool has_ledger(std::size_t j) const noexcept { return ledger_of_[j] != no_slot; }
-
   /// Takes agent a out of its slot. O(1).
-  void take(row_index a) {
-    slot const j = home_[a];
-    ROTA_ASSERT(j != no_slot);
-    (previous_[a] == nobody ? head_[j] : next_[previous_[a]]) = next_[a];
-    (next_[a] == nobody ? tail_[j] : previous_[next_[a]]) = previous_[a];
-    --count_[j];
-    total_ -= worth_[a];
-    home_[a] = no_slot;
-  }
+  void take(row_index a) { who_.take(a); }
   /// Puts agent a where it is worth most at these prices; false if every pair of it is absent. O(s).
   bool place(row_index a) {
     auto const j = static_cast<slot>(kernel::best(in_.row(a), price_.data(), slots()));
@@ -171,7 +116,7 @@ public:
       auto const [least, most] = bounds_[k];
       places_[k] = price_[k] > price_[sink()]   ? most
                    : price_[k] < price_[sink()] ? least
-                                                : std::clamp(count_[k], least, most);
+                                                : std::clamp(who_.count(k), least, most);
       surplus_ += places_[k];
     }
   }
@@ -199,7 +144,7 @@ public:
   [[nodiscard]] std::size_t stuck_at() const noexcept { return settled_[0]; }
   /// Agents that a slot lacks, negative if it has too many; for the sink likewise.
   [[nodiscard]] value room(std::size_t v) const noexcept {
-    return v == sink() ? -surplus_ : static_cast<value>(places_[v]) - static_cast<value>(count_[v]);
+    return v == sink() ? -surplus_ : static_cast<value>(places_[v]) - static_cast<value>(who_.count(v));
   }
 
   /// Whether a place of slot k may be given to the sink, or taken from it.
@@ -215,18 +160,18 @@ public:
       for (std::size_t k = 0; (k = kernel::first_tight(gain, here, price_.data(), k, slots())) < slots(); ++k)
         if (k != j && really(k)) f(k);
     };
-    if (auto const at = ledger_of_[j]; at != no_slot) {
-      value const* const gain = gain_.data() + at * slots();
+    if (ledgers_.has(j)) {
+      value const* const gain = ledgers_.gains(j);
       visit(gain, price_[j], [&](std::size_t k) {
         while (gain[k] + price_[j] >= price_[k]) {
-          if (current(j, k)) return true;
+          if (ledgers_.current(in_, who_, j, k)) return true;
           repair(j, k);
         }
         return false;
       });
     } else {
-      for (auto a = head_[j]; a != nobody; a = next_[a])
-        visit(in_.row(a), price_[j] - worth_[a], [](std::size_t) { return true; });
+      for (auto a = who_.first(j); a != nobody; a = who_.next(a))
+        visit(in_.row(a), price_[j] - who_.worth(a), [](std::size_t) { return true; });
     }
   }
 
@@ -235,7 +180,7 @@ public:
   bool fill_anyhow(std::size_t agents) {
     surplus_ = -static_cast<value>(agents);
     for (std::size_t k = 0; k < slots(); ++k) {
-      places_[k] = std::clamp(count_[k], bounds_[k].lower, bounds_[k].upper);
+      places_[k] = std::clamp(who_.count(k), bounds_[k].lower, bounds_[k].upper);
       surplus_ += places_[k];
     }
     for (std::size_t v = 0; v <= sink(); ++v)
@@ -245,12 +190,9 @@ public:
   }
 
 private:
+  static constexpr auto nobody = membership::nobody;
   static constexpr value unreached = value{1} << 60;  // further than any sum of reduced costs
   static constexpr value closed = value{1} << 61;     // the price at which nothing is offered to a settled node
-  static constexpr value no_gain = -(value{1} << 61);
-
-  /// Below five agents, asking each is as quick as keeping books.
-  static constexpr bool keeps_ledger(slot_bounds b) noexcept { return b.upper > 4; }
 
   // How a node was reached: from which node, by which agent; `nobody` stands for a place, or for whom the ledger names.
   static constexpr value link(row_index a, std::size_t from) noexcept {
@@ -260,54 +202,9 @@ private:
   [[nodiscard]] std::size_t from(std::size_t k) const noexcept { return static_cast<slot>(via_[k]); }
   [[nodiscard]] row_index by(std::size_t k) const noexcept {
     auto const a = static_cast<row_index>(static_cast<std::uint64_t>(via_[k]) >> 32);
-    return a != nobody ? a : static_cast<row_index>(mover_[ledger_of_[from(k)] * slots() + k]);
+    return a != nobody ? a : ledgers_.mover(from(k), k);
   }
-  [[nodiscard]] value gain_of(row_index a, std::size_t k) const noexcept { return in_.at(a, k) - worth_[a]; }
-  void enter(row_index a, slot j) {
-    ROTA_ASSERT(home_[a] == no_slot);
-    home_[a] = j;
-    worth_[a] = in_.at(a, j);
-    total_ += worth_[a];
-    ++count_[j];
-    if (ledgers_kept_) write_down(a);
-  }
-  void write_down(row_index a) {
-    if (auto const at = ledger_of_[home_[a]]; at != no_slot)
-      kernel::raise(in_.row(a), worth_[a], a, gain_.data() + at * slots(), mover_.data() + at * slots(), slots());
-  }
-
-  /// At least what anybody who rests in j gains by moving to k.
-  [[nodiscard]] value gain_at_rest(std::size_t j, std::size_t k) const noexcept {
-    return rest_price_[k] - rest_price_[j] - rest_margin_;
-  }
-  /// Whether the ledger of j names a member for k, with what it gains now.
-  [[nodiscard]] bool current(std::size_t j, std::size_t k) const {
-    auto const at = ledger_of_[j] * slots() + k;
-    auto const a = static_cast<row_index>(mover_[at]);
-    return a != nobody && home_[a] == j && gain_[at] == gain_of(a, k);
-  }
-  /// Looks for who gains most by moving from j to k: among those who do not rest; if that leaves it open, names nobody, and
-  /// looks among all of them when it is called again.
-  void repair(std::size_t j, std::size_t k) {
-    auto const at = ledger_of_[j] * slots() + k;
-    bool const all = mover_[at] == nobody;
-    value best = no_gain;
-    row_index who = nobody;
-    auto a = head_[j];
-    for (; a != nobody && (all || resting_[a] == 0); a = next_[a]) {
-      value const gain = gain_of(a, k);
-      bool const more = gain > best;
-      best = more ? gain : best;
-      who = more ? a : who;
-      ++done_.relaxations;
-    }
-    if (a != nobody) {
-      value const unseen = std::min(gain_[at], gain_at_rest(j, k));
-      if (best < unseen) best = unseen, who = nobody;
-    }
-    gain_[at] = best;
-    mover_[at] = who;
-  }
+  void repair(std::size_t j, std::size_t k) { done_.relaxations += ledgers_.repair(in_, who_, j, k); }
 
   bool find_sources() {
     sources_ = 0;
@@ -367,14 +264,14 @@ private:
     }
     if (may_open(v)) offer(sink(), base + open_price_[sink()], link(nobody, v));
     row_entry nearest{unreached, slots()};
-    if (auto const at = ledger_of_[v]; at != no_slot) {
-      nearest = kernel::relax(base, open_price_.data(), gain_.data() + at * slots(), link(nobody, v), label_.data(),
-                              via_.data(), slots(), unreached);
-    } else if (head_[v] == nobody) {
+    if (ledgers_.has(v)) {
+      nearest = kernel::relax(base, open_price_.data(), ledgers_.gains(v), link(nobody, v), label_.data(), via_.data(),
+                              slots(), unreached);
+    } else if (who_.first(v) == nobody) {
       nearest = kernel::least(label_.data(), slots(), unreached);
     } else {
-      for (auto a = head_[v]; a != nobody; a = next_[a])
-        nearest = kernel::relax(base + worth_[a], open_price_.data(), in_.row(a), link(a, v), label_.data(),
+      for (auto a = who_.first(v); a != nobody; a = who_.next(a))
+        nearest = kernel::relax(base + who_.worth(a), open_price_.data(), in_.row(a), link(a, v), label_.data(),
                                 via_.data(), slots(), unreached);
     }
     if (label_[sink()] < nearest.value) nearest = {label_[sink()], sink()};
@@ -387,7 +284,7 @@ private:
   /// Whether the way to k is what it says: its last step may rest on what a ledger remembers.
   [[nodiscard]] bool trustworthy(std::size_t k) const {
     auto const j = from(k);
-    return k == sink() || j == sink() || ledger_of_[j] == no_slot || current(j, k);
+    return k == sink() || j == sink() || !ledgers_.has(j) || ledgers_.current(in_, who_, j, k);
   }
   /// Looks again for the way to k.
   void correct(std::size_t k, std::size_t passed) {
@@ -398,10 +295,11 @@ private:
       value const base = distance_[v] - price_[v] + price_[k];
       if (v == sink()) {
         if (may_close(k)) offer(k, base, link(nobody, v));
-      } else if (auto const at = ledger_of_[v]; at != no_slot) {
-        offer(k, base - gain_[at * slots() + k], link(nobody, v));
+      } else if (ledgers_.has(v)) {
+        offer(k, base - ledgers_.gains(v)[k], link(nobody, v));
       } else {
-        for (auto a = head_[v]; a != nobody; a = next_[a]) offer(k, base - gain_of(a, k), link(a, v));
+        for (auto a = who_.first(v); a != nobody; a = who_.next(a))
+          offer(k, base - (in_.at(a, k) - who_.worth(a)), link(a, v));
       }
     }
   }
@@ -411,7 +309,7 @@ private:
     std::size_t source = target;
     while (via_[source] != no_link) {
       std::size_t const j = from(source);
-      bool const open = source == sink() ? may_open(j) : j == sink() ? may_close(source) : home_[by(source)] == j;
+      bool const open = source == sink() ? may_open(j) : j == sink() ? may_close(source) : who_.home(by(source)) == j;
       if (!open) return;
       source = j;
     }
@@ -458,7 +356,7 @@ private:
         continue;
       }
       if (may_open(v)) reach(sink(), link(nobody, v));
-      for (auto a = head_[v]; a != nobody && end <= slots(); a = next_[a])
+      for (auto a = who_.first(v); a != nobody && end <= slots(); a = who_.next(a))
         for (std::size_t k = 0; k < slots(); ++k)
           if (in_.present(a, k)) reach(k, link(a, v));
     }
@@ -466,24 +364,13 @@ private:
   }
 
   instance in_;
-  std::vector<slot> home_;                  // of each agent
-  std::vector<value> worth_;                // of each agent in its slot
-  std::vector<row_index> next_, previous_;  // members of a slot, linked, those who rest last
-  std::vector<row_index> head_, tail_;
-  std::vector<unsigned char> resting_;
-  std::vector<value> rest_price_;
-  value rest_margin_ = 0;
-  bool ledgers_kept_ = false;
-  value total_ = 0;
-  std::vector<std::uint32_t> count_;   // members of a slot
+  membership who_;
+  ledgers ledgers_;
   std::vector<std::uint32_t> places_;  // units from a slot to the sink
   std::vector<slot_bounds> bounds_;
   value surplus_ = 0;  // excess of the sink
   std::vector<value> price_;
-  std::vector<slot> ledger_of_;  // of a slot, its row in the two below
-  std::vector<value> gain_;      // at least what any member gains by moving
-  std::vector<value> mover_;     // who
-  std::vector<value> label_;     // tentative distance, `unreached` once final
+  std::vector<value> label_;  // tentative distance, `unreached` once final
   std::vector<value> open_price_;
   std::vector<value> via_;
   std::vector<value> distance_;
