@@ -14,7 +14,7 @@ namespace rota::dense {
 /// Where to begin: prices at which few agents have to move, and everybody where it is worth most at them.
 ///
 /// Any prices will do for the result; good ones save most of the searches. Three openings:
-/// - few agents a slot: an auction. Agents bid in turn for their best slot, as far as their second best allows; a slot that
+/// - few agents a slot: a short auction. Agents bid in turn for their best slot, as far as their second best allows; a slot that
 ///   is full raises its price to what its members bid least. Nobody is ever where it would not be.
 /// - one agent a slot, all to be filled: the same, but prices begin where one agent is content with each slot.
 /// - many agents a slot: prices from a quarter of the agents, and theirs from a quarter of these. Chosen by hash: a stride
@@ -52,7 +52,7 @@ private:
     instance const& in = graph.problem();
     bid_.assign(in.agents, 0);
     waiting_.clear();
-    bids_left_ = agents;
+    bids_left_ = (agents + 1) / 2;
     if (one_each(graph, agents)) choose_for_slots(graph);
     for (row_index a = 0; a < in.agents; ++a)
       if (in.takes_part(a) && graph.who().home(a) == no_slot)
