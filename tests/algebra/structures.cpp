@@ -23,7 +23,7 @@ using universe::atom_set;
 using universe::delta;
 using universe::event;
 using universe::nth;
-using transition = rota::transition<atom>;
+using transition = rota::transition<atom_set>;
 
 // The claim of the paper, and what is true instead.
 static_assert(!rota::abelian_group<event> && !rota::group<event> && !rota::monoid<event>);
