@@ -654,4 +654,35 @@ TEST(every_size, composes_adds_differs_and_applies_pointwise) {
     }
 }
 
+TEST(every_size, of_a_universe_composes_as_sparse_events_do) {
+  law same("dense and sparse agree, whatever the number of words");
+  words next;
+  for (std::size_t const size : {1u, 63u, 64u, 65u, 128u, 1000u, 1023u, 1024u, 1025u, 1100u, 1984u, 2048u, 4100u}) {
+    std::vector<std::uint32_t> numbers(size);
+    for (std::size_t i = 0; i < size; ++i) numbers[i] = static_cast<std::uint32_t>(3 * i);
+    rota::atom_set<std::uint32_t> const all(numbers.begin(), numbers.end());
+    rota::listed_universe<std::uint32_t> const u(all);
+    auto const random = [&] {
+      std::vector<std::uint32_t> plus, minus;
+      for (auto const x : numbers) {
+        auto const which = next() % 4;
+        if (which < 2) (which == 0 ? plus : minus).push_back(x);
+      }
+      using set = rota::atom_set<std::uint32_t>;
+      return number_event::make(set(plus.begin(), plus.end()), set(minus.begin(), minus.end())).value();
+    };
+    auto const e = random();
+    auto const f = random();
+    auto const d = to_dense(e, u).value();
+    auto const g = to_dense(f, u).value();
+    same(to_sparse(compose(d, g)) == compose(e, f) && compose(d, g) == to_dense(compose(e, f), u).value());
+    same(to_sparse(inverse(d)) == inverse(e) && compose(d, inverse(d)).empty());
+    auto const c = e.additions();
+    auto const change = difference(d.additions(), g.additions());
+    same(to_sparse(change) == difference(c, f.additions()));
+    same(apply(change, d.additions()).value() == g.additions());
+    same(to_sparse(unite(d.additions(), g.additions())) == unite(c, f.additions()));
+  }
+}
+
 }  // namespace

@@ -84,14 +84,16 @@ public:
   /// The event whose words number i are `words_at(i)`, {of ϑ⁺, of ϑ⁻}. @pre disjoint, no bit beyond the universe
   template <std::invocable<std::size_t> F>
   [[nodiscard]] static constexpr dense_event from_words(U const& universe, F&& words_at) {
-    dense_event e{planes(universe, std::forward<F>(words_at))};
+    dense_event e(universe, words_at);
     for (std::size_t i = 0; i < e.plus().size(); ++i) ROTA_ASSERT((e.plus()[i] & e.minus()[i]) == 0);
     ROTA_ASSERT(e.bits_.within_universe());
     return e;
   }
 
 private:
-  constexpr explicit dense_event(planes bits) : bits_(std::move(bits)) {}
+  // Made in place: large planes of a fixed universe would be copied, not moved.
+  template <std::invocable<std::size_t> F>
+  constexpr dense_event(U const& universe, F& words_at) : bits_(universe, words_at) {}
   static constexpr result<dense_event, outside_universe<atom_type>> single(atom_type const& x, sign s,
                                                                            U const& universe) {
     auto const i = universe.index_of(x);
