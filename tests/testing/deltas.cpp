@@ -32,7 +32,9 @@ struct dense_embedding {
     register_laws("delta", embedding_laws<embedding_model<atom>>()) &&
     register_laws("dense_event", embedding_laws<dense_embedding>()) &&
     register_laws("delta", extension_laws<extension_model<atom>>()) && register_laws<small_delta>("delta_of_8_bits") &&
-    register_laws<sample::exact_delta>("delta_of_big_integers");
+    register_laws("delta_of_8_bits", module_laws<small_delta>()) &&
+    register_laws<sample::exact_delta>("delta_of_big_integers") &&
+    register_laws("delta_of_big_integers", module_laws<sample::exact_delta>());
 
 // ι and ρ -------------------------------------------------------------------------------------------------------------
 

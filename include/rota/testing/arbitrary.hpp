@@ -106,6 +106,18 @@ struct class_invariant<event<Atom>> {
                        [](auto const& x) { return x.value == sign::plus || x.value == sign::minus; });
   }
 };
+template <atom_universe U>
+struct class_invariant<dense_event<U>> {
+  static bool holds(dense_event<U> const& e) {
+    std::size_t const used = e.universe().size() % 64;
+    for (std::size_t i = 0; i < e.plus().size(); ++i) {
+      auto const either = e.plus()[i] | e.minus()[i];
+      bool const beyond = used != 0 && i + 1 == e.plus().size() && either >> used != 0;
+      if ((e.plus()[i] & e.minus()[i]) != 0 || beyond) return false;
+    }
+    return true;
+  }
+};
 template <ordered_atom Atom, integer_coefficient Coefficient>
 struct class_invariant<delta<Atom, Coefficient>> {
   static bool holds(delta<Atom, Coefficient> const& d) {
