@@ -111,7 +111,9 @@ std::string differences(U const& u, event const& e, event const& f, atom_set con
   expect(is_subset(dc, dd) == is_subset(c, d) && is_subset(intersect(dc, dd), dd), "is_subset");
   expect(delta(de) == delta(e) && delta(dc) == delta(c) && rota::delta(dd) == delta(d), "delta");
   expect(fingerprint_of(de) == fingerprint_of(e) && fingerprint_of(dc) == fingerprint_of(c), "fingerprint");
-  rota::transition const t{c, d}, back{d, c}, dense_t{dc, dd}, dense_back{dd, dc};
+  rota::transition const t{c, d};
+  rota::transition const dense_t{dc, dd};
+  rota::transition const dense_back{dd, dc};
   expect(same(event_of(dense_t), event_of(t)) && delta_of(dense_t) == delta_of(t), "transition");
   expect(checked_compose(dense_t, dense_back) == rota::transition(dc, dc), "arrows that meet");
   auto const gap = checked_compose(t, t);
