@@ -61,10 +61,11 @@ template <std::size_t Planes, class F>
 }
 
 // Where the compiler must not assume them, registers of 256 bits are asked for at run time; worth it from 1024 atoms on.
+// `out` is fresh, so nothing that is read there.
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(__AVX2__)
 inline bool has_wide_registers() noexcept { return __builtin_cpu_supports("avx2") != 0; }
 template <std::size_t Planes, class F>
-[[gnu::target("avx2")]] void write_planes_widely(word* out, std::size_t n, F& words_at) {
+[[gnu::target("avx2")]] void write_planes_widely(word* __restrict out, std::size_t n, F& words_at) {
   write_planes<Planes>(out, n, words_at);
 }
 #else
