@@ -69,9 +69,11 @@ template <std::size_t Planes, class F>
   write_planes<Planes>(out, n, words_at);
 }
 #else
-constexpr bool has_wide_registers() noexcept { return false; }
+inline bool has_wide_registers() noexcept { return false; }
 template <std::size_t Planes, class F>
-void write_planes_widely(word*, std::size_t, F&) {}
+void write_planes_widely(word* out, std::size_t n, F& words_at) {  // right, should a linker take it for the other
+  write_planes<Planes>(out, n, words_at);
+}
 #endif
 
 /// `Planes` subsets of a universe: bit i % 64 of word i / 64 of a plane tells whether atom i is in it.
