@@ -2,6 +2,8 @@
 #include <rota/rota.hpp>
 
 #include <array>
+#include <cstdint>
+#include <limits>
 
 namespace {
 
@@ -35,6 +37,8 @@ static_assert(!rota::group<event> && rota::abelian_group<delta>);
 // The group: nothing is forgotten, brackets do not matter.
 static_assert((delta(e) + delta(e)) + delta(back) == delta(e) + (delta(e) + delta(back)));
 static_assert(delta(e) + delta(e) == 2 * delta(e) && clamp(2 * delta(e)) == e);
+constexpr delta most(ann_attacks, std::numeric_limits<std::int64_t>::max());
+static_assert(checked_sum(most, delta(e)).error().witness == ann_attacks && checked_negation(most).has_value());
 
 // A run, such as the history of a robot, composes to one event in any brackets.
 constexpr std::array history{e, back, e};
@@ -44,8 +48,8 @@ static_assert(rota::compose_run<atom>(no_history).error().witness == ann_attacks
 
 // An arrow knows where it starts, so arrows that do not meet are refused.
 constexpr bool arrows_meet() {
-  rota::transition<atom> const first{atoms{ann_defends}, atoms{ann_attacks}};
-  rota::transition<atom> const second{atoms{ann_attacks}, atoms{}};
+  rota::transition const first{atoms{ann_defends}, atoms{ann_attacks}};
+  rota::transition const second{atoms{ann_attacks}, atoms{}};
   return checked_compose(first, second).value().target().empty() && !checked_compose(second, first).has_value() &&
          event_of(first) == takes_over && compose(first, inverse(first)) == first.identity(first.source());
 }
@@ -53,6 +57,14 @@ static_assert(arrows_meet());
 
 // Eight bytes follow an allocation through its events.
 static_assert(fingerprint_of(atoms{ann_attacks}) == fingerprint_of(atoms{ann_defends}) + fingerprint_of(takes_over));
+
+// The same events in two machine words, where all atoms are known.
+using play_atoms =
+    rota::in_universe<soccer, rota::name_list<soccer::agent::ann, soccer::agent::ben>,
+                      rota::name_list<soccer::plan::play>, rota::name_list<soccer::task::attack, soccer::task::defend>>;
+constexpr auto in_one_word = to_dense(takes_over, play_atoms{}).value();
+static_assert(sizeof(in_one_word) == 16 && rota::delta(in_one_word) == delta(takes_over));
+static_assert(compose(in_one_word, inverse(in_one_word)).empty());
 
 }  // namespace
 

@@ -201,56 +201,109 @@ RC_GTEST_PROP(delta, extend_pushes_forward_along_maps_of_atoms, ()) {
 
 // Bounded and exact coefficients --------------------------------------------------------------------------------------
 
-TEST(delta, checked_sum_refuses_exactly_what_eight_bits_cannot_hold) {
-  // All 65536 pairs at one atom, a second atom before it that is always fine.
-  int refused = 0;
-  for (int a = -128; a <= 127; ++a)
+namespace {
+
+constexpr bool fits_8_bits(int n) { return n >= -128 && n <= 127; }
+small_delta small_at(int n) { return {nth(1), static_cast<std::int8_t>(n)}; }
+
+/// Whether a checked operation gives n at the second atom, and at the first, which is always fine, its due; or refuses the
+/// second where eight bits cannot hold n.
+template <class Checked>
+bool is_exact_or_refused(Checked const& r, int n, int at_the_first) {
+  if (!fits_8_bits(n)) return !r.has_value() && r.error().witness == nth(1);
+  return r.has_value() && (*r)(nth(1)) == n && (*r)(nth(0)) == at_the_first &&
+         r->size() == std::size_t{n != 0} + std::size_t{at_the_first != 0};
+}
+
+}  // namespace
+
+TEST(delta, checked_operations_refuse_exactly_what_eight_bits_cannot_hold) {
+  // Every pair of numbers, at one atom.
+  small_delta const one(nth(0), 1);
+  int sums = 0, differences = 0, products = 0;
+  for (int a = -128; a <= 127; ++a) {
+    auto const d = small_at(a);
+    ASSERT_TRUE(is_exact_or_refused(checked_negation(one + d), -a, -1)) << a;
     for (int b = -128; b <= 127; ++b) {
-      auto const d = small_delta(nth(1), static_cast<std::int8_t>(a));
-      auto const e = small_delta(nth(0), 1) + small_delta(nth(1), static_cast<std::int8_t>(b));
-      auto const sum = checked_sum(d, e);
-      bool const fits = a + b >= -128 && a + b <= 127;
-      ASSERT_EQ(sum.has_value(), fits) << a << " + " << b;
-      if (fits) {
-        ASSERT_EQ((*sum)(nth(1)), a + b);
-        ASSERT_EQ((*sum)(nth(0)), 1);
-        ASSERT_EQ(sum->size(), a + b == 0 ? 1u : 2u);
-      } else {
-        ASSERT_EQ(sum.error().witness, nth(1));
-        ++refused;
-      }
+      auto const e = small_at(b);
+      ASSERT_TRUE(is_exact_or_refused(checked_sum(d, one + e), a + b, 1)) << a << " + " << b;
+      ASSERT_TRUE(is_exact_or_refused(checked_sum(one + d, e), a + b, 1)) << a << " + " << b;
+      ASSERT_TRUE(is_exact_or_refused(checked_difference(d, one + e), a - b, -1)) << a << " - " << b;
+      ASSERT_TRUE(is_exact_or_refused(checked_difference(one + d, e), a - b, 1)) << a << " - " << b;
+      auto const n = static_cast<std::int8_t>(a);
+      // At the first atom 1·a always fits.
+      ASSERT_TRUE(is_exact_or_refused(checked_product(n, one + e), a * b, a)) << a << " * " << b;
+      sums += !fits_8_bits(a + b);
+      differences += !fits_8_bits(a - b);
+      products += !fits_8_bits(a * b);
     }
-  EXPECT_EQ(refused, 128 * 127 / 2 + 129 * 128 / 2);
+  }
+  EXPECT_EQ(sums, 128 * 127 / 2 + 129 * 128 / 2);
+  EXPECT_EQ(differences, 2 * (129 * 128 / 2) - 128);
+  EXPECT_GT(products, 60000) << "most products of two bytes are no byte";
 }
 
-TEST(delta, checked_sum_refuses_at_the_limits_of_64_bits) {
+TEST(delta, checked_operations_at_the_limits_of_64_bits) {
   using limits = std::numeric_limits<std::int64_t>;
+  constexpr auto max = limits::max(), min = limits::min();
   auto const at = [](std::int64_t n) { return delta(nth(3), n); };
-  EXPECT_EQ(*checked_sum(at(limits::max()), at(limits::min())), at(-1));
-  EXPECT_EQ(*checked_sum(at(limits::max() - 1), at(1)), at(limits::max()));
-  EXPECT_EQ(*checked_sum(at(limits::min() + 1), at(-1)), at(limits::min()));
-  EXPECT_EQ(checked_sum(at(limits::max()), at(1)).error().witness, nth(3));
-  EXPECT_EQ(checked_sum(at(1), at(limits::max())).error().witness, nth(3));
-  EXPECT_EQ(checked_sum(at(limits::min()), at(-1)).error().witness, nth(3));
-  EXPECT_EQ(checked_sum(at(-1), at(limits::min())).error().witness, nth(3));
-  EXPECT_EQ(checked_sum(at(limits::min()), at(limits::min())).error().witness, nth(3));
+  auto const refuses = [](auto const& r) { return !r.has_value() && r.error().witness == nth(3); };
+  EXPECT_EQ(*checked_sum(at(max), at(min)), at(-1));
+  EXPECT_EQ(*checked_sum(at(max - 1), at(1)), at(max));
+  EXPECT_EQ(*checked_sum(at(min + 1), at(-1)), at(min));
+  EXPECT_TRUE(refuses(checked_sum(at(max), at(1))));
+  EXPECT_TRUE(refuses(checked_sum(at(1), at(max))));
+  EXPECT_TRUE(refuses(checked_sum(at(min), at(-1))));
+  EXPECT_TRUE(refuses(checked_sum(at(-1), at(min))));
+  EXPECT_TRUE(refuses(checked_sum(at(min), at(min))));
+
+  EXPECT_EQ(*checked_difference(at(-1), at(min)), at(max)) << "although -e has no room";
+  EXPECT_EQ(*checked_difference(at(min), at(min)), delta{});
+  EXPECT_EQ(*checked_difference(at(min), at(-1)), at(min + 1));
+  EXPECT_TRUE(refuses(checked_difference(delta{}, at(min))));
+  EXPECT_TRUE(refuses(checked_difference(at(max), at(-1))));
+  EXPECT_TRUE(refuses(checked_difference(at(min), at(1))));
+
+  EXPECT_EQ(*checked_negation(at(max)), at(min + 1));
+  EXPECT_EQ(*checked_negation(at(min + 1)), at(max));
+  EXPECT_TRUE(refuses(checked_negation(at(min))));
+
+  EXPECT_EQ(*checked_product(1, at(min)), at(min));
+  EXPECT_EQ(*checked_product(min, at(1)), at(min));
+  EXPECT_EQ(*checked_product(-1, at(max)), at(min + 1));
+  EXPECT_EQ(*checked_product(0, at(min)), delta{});
+  EXPECT_EQ(*checked_product(max / 7, at(7)), at(max / 7 * 7));
+  EXPECT_TRUE(refuses(checked_product(-1, at(min))));
+  EXPECT_TRUE(refuses(checked_product(min, at(-1))));
+  EXPECT_TRUE(refuses(checked_product(max / 7 + 1, at(7))));
+  EXPECT_TRUE(refuses(checked_product(std::int64_t{1} << 32, at(std::int64_t{1} << 31)))) << "2^63 is one too many";
 }
 
-RC_GTEST_PROP(delta, checked_sum_is_exact_or_names_the_least_overflow, ()) {
+RC_GTEST_PROP(delta, checked_operations_are_exact_or_name_the_least_overflow, ()) {
   auto const n = *atom_count().as("atoms");
   auto const a = *values(n, -127, 127).as("d");
   auto const b = *values(n, -127, 127).as("e");
-  std::size_t least = n;
-  for (std::size_t i = n; i > 0; --i)
-    if (a[i - 1] + b[i - 1] > 127 || a[i - 1] + b[i - 1] < -128) least = i - 1;
-  RC_CLASSIFY(least == n, "fits");
-  auto const sum = checked_sum(delta_of<std::int8_t>(a), delta_of<std::int8_t>(b));
-  RC_ASSERT(sum.has_value() == (least == n));
-  if (sum.has_value()) {
-    for (std::size_t i = 0; i < n; ++i) RC_ASSERT((*sum)(nth(i)) == a[i] + b[i]);
-  } else {
-    RC_ASSERT(sum.error().witness == nth(least));
-  }
+  auto const k = *integer(-4, 4).as("k");
+  auto const d = delta_of<std::int8_t>(a);
+  auto const e = delta_of<std::int8_t>(b);
+  // The least number, often, which alone has no opposite.
+  auto c = b;
+  if (auto const i = static_cast<std::size_t>(*integer(0, 2 * static_cast<int>(n)).as("least at")); i < n) c[i] = -128;
+  auto const f = delta_of<std::int8_t>(c);
+  auto const demand = [&](auto const& r, auto expected) {
+    std::size_t least = n;
+    for (std::size_t i = n; i > 0; --i)
+      if (!fits_8_bits(expected(i - 1))) least = i - 1;
+    RC_ASSERT(r.has_value() == (least == n));
+    if (!r.has_value()) RC_ASSERT(r.error().witness == nth(least));
+    for (std::size_t i = 0; r.has_value() && i < n; ++i) RC_ASSERT((*r)(nth(i)) == expected(i));
+    return least == n;
+  };
+  RC_CLASSIFY(demand(checked_sum(d, e), [&](std::size_t i) { return a[i] + b[i]; }), "the sum fits");
+  RC_CLASSIFY(demand(checked_difference(d, e), [&](std::size_t i) { return a[i] - b[i]; }), "the difference fits");
+  RC_CLASSIFY(demand(checked_product(static_cast<std::int8_t>(k), d), [&](std::size_t i) { return k * a[i]; }),
+              "the product fits");
+  RC_CLASSIFY(demand(checked_negation(f), [&](std::size_t i) { return -c[i]; }), "the opposite fits");
 }
 
 RC_GTEST_PROP(delta, nothing_saturates_where_the_coefficients_are_exact, ()) {
@@ -262,6 +315,8 @@ RC_GTEST_PROP(delta, nothing_saturates_where_the_coefficients_are_exact, ()) {
   RC_ASSERT(big.size() == d.size());
   for (std::size_t i = 0; i < n; ++i) RC_ASSERT((big(nth(i)) == huge * counts[i]));
   RC_ASSERT(checked_sum(big, big).has_value());
+  RC_ASSERT((*checked_difference(d, big) == d + big * wide(-1)));
+  RC_ASSERT((*checked_negation(big) == -big && *checked_product(huge, d) == big));
   RC_ASSERT(((big + big) - big == big));
   RC_ASSERT((big - big).empty());
   RC_ASSERT(clamp(big) == clamp(delta_of(counts)));
@@ -273,8 +328,16 @@ TEST(delta_death, overflow_is_asserted_and_never_saturates) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   small_delta const d(nth(0), 127);
   EXPECT_DEATH((void)(d + d), "has_value");
-  EXPECT_DEATH((void)(d * std::int8_t{2}), "product_fits");
-  EXPECT_DEATH((void)-small_delta(nth(0), -128), "product_fits");
+  EXPECT_DEATH((void)(d * std::int8_t{2}), "has_value");
+  EXPECT_DEATH((void)-small_delta(nth(0), -128), "has_value");
+  EXPECT_DEATH((void)(d - small_delta(nth(0), -1)), "has_value");
+}
+TEST(delta_death, entries_out_of_order_or_zero_are_asserted) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  using numbers = rota::delta<int>;
+  using entries = rota::small_vector<numbers::entry, 8>;
+  EXPECT_DEATH((void)numbers::from_entries(entries{{2, 1}, {1, 1}}), "atom");
+  EXPECT_DEATH((void)numbers::from_entries(entries{{1, 0}}), "count");
 }
 #endif
 
@@ -298,6 +361,17 @@ constexpr bool group_at_compile_time() {
          !checked_sum(rota::delta<int, std::int8_t>(4, 100), rota::delta<int, std::int8_t>(4, 28)).has_value();
 }
 static_assert(group_at_compile_time());
+
+constexpr bool refusals_at_compile_time() {
+  using d = rota::delta<int, std::int8_t>;
+  d const most(4, 127), least(4, -128);
+  return checked_sum(most, d(4, 1)).error().witness == 4 && *checked_sum(most, least) == d(4, -1) &&
+         checked_negation(least).error().witness == 4 && *checked_negation(most) == d(4, -127) &&
+         checked_difference(d{}, least).error().witness == 4 && *checked_difference(d(4, -1), least) == most &&
+         checked_product(2, most).error().witness == 4 && checked_product(-1, least).error().witness == 4 &&
+         *checked_product(-1, most) == d(4, -127) && *checked_product(0, least) == d{};
+}
+static_assert(refusals_at_compile_time());
 
 }  // namespace
 

@@ -5,10 +5,13 @@
 #include "support/allocation_counter.hpp"
 
 #include <rota/algebra/allocation_event.hpp>
+#include <rota/algebra/runs.hpp>
 #include <rota/algebra/structures.hpp>
 
 #include <array>
+#include <concepts>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -51,6 +54,12 @@ static_assert(!std::constructible_from<listed, atom_set&&>, "a view of a tempora
 static_assert(rota::allocation_event<event> && rota::allocation_event<rota::event<std::string>>);
 static_assert(rota::allocation_event<word_event> && rota::allocation_event<rota::dense_event<listed>>);
 static_assert(!rota::allocation_event<delta> && !rota::allocation_event<atom_set> && !rota::allocation_event<int>);
+static_assert(rota::allocation_set<atom_set> && rota::allocation_set<rota::dense_atom_set<listed>>);
+static_assert(!rota::allocation_set<event> && !rota::allocation_set<delta> && !rota::allocation_set<std::vector<atom>>);
+static_assert(std::same_as<rota::event_on<rota::dense_atom_set<listed>>, rota::dense_event<listed>>);
+static_assert(rota::groupoid<rota::transition<rota::dense_atom_set<listed>>>, "arrows within one universe do compose");
+static_assert(std::constructible_from<delta, word_event> && !std::convertible_to<word_event, delta>);
+static_assert(!std::constructible_from<delta, rota::dense_event<rota::index_universe<7>>>, "other atoms");
 static_assert(rota::invertible_magma<word_event> && rota::commutative_magma<word_event> && !rota::monoid<word_event>);
 static_assert(!rota::magma<rota::dense_event<listed>>, "events over two universes do not compose");
 
@@ -100,6 +109,23 @@ std::string differences(U const& u, event const& e, event const& f, atom_set con
   expect(same(intersect(dc, dd), intersect(c, d)), "intersect");
   expect(same(subtract(dc, dd), subtract(c, d)), "subtract");
   expect(is_subset(dc, dd) == is_subset(c, d) && is_subset(intersect(dc, dd), dd), "is_subset");
+  expect(delta(de) == delta(e) && delta(dc) == delta(c) && rota::delta(dd) == delta(d), "delta");
+  expect(fingerprint_of(de) == fingerprint_of(e) && fingerprint_of(dc) == fingerprint_of(c), "fingerprint");
+  rota::transition const t{c, d};
+  rota::transition const dense_t{dc, dd};
+  rota::transition const dense_back{dd, dc};
+  expect(same(event_of(dense_t), event_of(t)) && delta_of(dense_t) == delta_of(t), "transition");
+  expect(checked_compose(dense_t, dense_back) == rota::transition(dc, dc), "arrows that meet");
+  auto const gap = checked_compose(t, t);
+  auto const dense_gap = checked_compose(dense_t, dense_t);
+  expect(gap.has_value() == dense_gap.has_value() && (gap.has_value() || gap.error() == dense_gap.error()),
+         "arrows that do not meet");
+  for (auto const& run : {std::array{difference(c, d), difference(d, c), e}, std::array{e, f, inverse(e)}}) {
+    std::vector<dense> dense_run;
+    for (auto const& g : run) dense_run.push_back(*to_dense(g, u));
+    expect(same_result(rota::compose_run(std::span<dense const>(dense_run)), rota::compose_run<atom>(run)),
+           "compose_run");
+  }
   return names;
 }
 

@@ -12,6 +12,7 @@
 #include <concepts>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace structures_test {
@@ -23,7 +24,7 @@ using universe::atom_set;
 using universe::delta;
 using universe::event;
 using universe::nth;
-using transition = rota::transition<atom>;
+using transition = rota::transition<atom_set>;
 
 // The claim of the paper, and what is true instead.
 static_assert(!rota::abelian_group<event> && !rota::group<event> && !rota::monoid<event>);
@@ -78,6 +79,26 @@ constexpr bool a_run_composes() {
          rota::compose_run<atom>(none).error() == rota::no_run<atom>{nth(0), 0, 1};
 }
 static_assert(a_run_composes());
+
+#ifndef NDEBUG
+// A broken precondition is no constant expression: the compiler sees it where it sees the values.
+template <auto F>
+concept is_constant = requires { typename std::bool_constant<(F(), true)>; };
+constexpr transition to_s() { return {atom_set{}, atom_set{nth(0)}}; }
+constexpr transition from_s() { return {atom_set{nth(0)}, atom_set{}}; }
+using small_delta = rota::delta<atom, std::int8_t>;
+constexpr auto meeting = [] { return rota::compose(to_s(), from_s()).target().empty(); };
+constexpr auto not_meeting = [] { return rota::compose(to_s(), to_s()).target().empty(); };
+constexpr auto within_range = [] { return (small_delta(nth(0), 63) + small_delta(nth(0), 64)).size(); };
+constexpr auto out_of_range = [] { return (small_delta(nth(0), 64) + small_delta(nth(0), 64)).size(); };
+constexpr auto multiplied_out_of_range = [] { return (2 * small_delta(nth(0), 64)).size(); };
+constexpr auto disordered = [] {
+  return event::from_entries({{nth(1), rota::sign::plus}, {nth(0), rota::sign::plus}}).size();
+};
+static_assert(is_constant<meeting> && !is_constant<not_meeting>);
+static_assert(is_constant<within_range> && !is_constant<out_of_range> && !is_constant<multiplied_out_of_range>);
+static_assert(!is_constant<disordered>);
+#endif
 
 }  // namespace
 

@@ -1,126 +1,199 @@
-// Difference and apply, and runs: every law a test of its own, such as event.apply.unique_applicable_event; then one wrong
-// model per law.
+// Difference and apply, and runs: every law a test of its own, such as event.apply.unique_applicable_event, for both storages
+// and for a foreign one; then one wrong model per law, in each storage.
 
+#include "testing/foreign.hpp"
 #include "testing/wrong.hpp"
 
 #include <rota/testing/apply_laws.hpp>
 #include <rota/testing/gtest.hpp>
 
+#include <map>
+#include <set>
 #include <span>
 #include <vector>
 
 namespace apply_test {
 
 using namespace rota::testing;
-using rota::sign;
 using sample::atom;
-using sample::atom_set;
 using sample::delta;
+using sample::dense_event;
 using sample::event;
+using sample::map_event;
+
+[[maybe_unused]] bool const registered =
+    register_laws("event", apply_laws<event>()) && register_laws("event", apply_theorems<event>()) &&
+    register_laws("event", run_laws<event>()) && register_laws("dense_event", apply_laws<dense_event>()) &&
+    register_laws("dense_event", apply_theorems<dense_event>()) &&
+    register_laws("dense_event", run_laws<dense_event>()) && register_laws<map_event>("map_event");
+
+// The right functions, from which each model below departs in one ----------------------------------------------------------
+
+template <class E>
+using right = rota::structure<E>;
+template <class E>
+using as = storage<E, right<E>>;
+template <class E>
+using set_of = typename right<E>::set_type;
+template <class E>
+using applied = rota::result<set_of<E>, rota::inapplicable<atom>>;
+template <class E>
+using composed = rota::result<E, rota::no_run<atom>>;
+
+template <class E>
+composed<E> right_run(std::span<E const> events) {
+  std::vector<event> values;
+  for (auto const& e : events) values.push_back(as<E>::read(e));
+  auto const r = rota::compose_run(std::span<event const>(values));
+  if (!r) return rota::refused{r.error()};
+  return as<E>::stored(*r);
+}
 
 // Apply and difference ------------------------------------------------------------------------------------------------
 
-using right = apply_model<atom>;
-using right_runs = run_model<atom>;
-[[maybe_unused]] bool const registered = register_laws("event", apply_laws<right>()) &&
-                                         register_laws("event", apply_theorems<right>()) &&
-                                         register_laws("event", run_laws<right_runs>());
-
-using applied = rota::result<atom_set, rota::inapplicable<atom>>;
-
-struct swaps_the_difference : right {
-  static event difference(atom_set const& c, atom_set const& d) { return rota::difference(d, c); }
+template <class E>
+struct swaps_the_difference : right<E> {
+  static E difference(set_of<E> const& c, set_of<E> const& d) { return right<E>::difference(d, c); }
 };
 /// (C ∖ e⁻) ∪ e⁺ whether or not the event applies.
-struct never_refuses : right {
-  static applied apply(event const& e, atom_set const& c) {
-    return unite(subtract(c, e.subtractions()), e.additions());
+template <class E>
+struct never_refuses : right<E> {
+  static applied<E> apply(E const& e, set_of<E> const& c) {
+    auto const signs = as<E>::read(e);
+    return as<E>::stored(unite(subtract(as<E>::read(c), signs.subtractions()), signs.additions()));
   }
 };
-struct names_the_greatest_atom : right {
-  static applied apply(event const& e, atom_set const& c) {
-    auto const r = rota::apply(e, c);
+template <class E>
+struct names_the_greatest_atom : right<E> {
+  static applied<E> apply(E const& e, set_of<E> const& c) {
+    auto const r = right<E>::apply(e, c);
     if (r.has_value()) return *r;
     auto witness = r.error().witness;
-    for (auto const& x : delta(c) + delta(e))
+    for (auto const& x : delta(as<E>::read(c)) + delta(as<E>::read(e)))
       if (x.count != 1) witness = x.atom;
     return rota::refused{rota::inapplicable<atom>{witness}};
   }
 };
-struct counts_members_twice : right {
-  static delta characteristic(atom_set const& c) { return 2 * delta(c); }
+template <class E>
+struct overlooks_the_least_member : right<E> {
+  static std::set<atom> members(set_of<E> const& c) {
+    auto const all = as<E>::read(c);
+    return {all.empty() ? all.begin() : all.begin() + 1, all.end()};
+  }
 };
 /// The later event wins at each atom: associative, and still wrong.
-event by_the_later(event const& e, event const& f) {
-  std::vector<int> signs;
-  for (std::size_t i = 0; i < 24; ++i) {
-    auto const x = nth_atom<atom>(i);
-    signs.push_back(to_int(f(x) == sign::zero ? e(x) : f(x)));
+template <class E>
+struct composes_by_the_later : right<E> {
+  static E combine(E const& e, E const& f) {
+    auto const x = as<E>::read(e);
+    auto const y = as<E>::read(f);
+    auto const mentioned = unite(y.additions(), y.subtractions());
+    return as<E>::stored(event::make(unite(subtract(x.additions(), mentioned), y.additions()),
+                                     unite(subtract(x.subtractions(), mentioned), y.subtractions()))
+                             .value());
   }
-  return event_with<atom>(signs);
-}
-struct composes_by_the_later : right {
-  static event compose(event const& e, event const& f) { return by_the_later(e, f); }
 };
-
-TEST(wrong_apply, one_model_for_each_law) {
-  EXPECT_EQ(broken(apply_laws<swaps_the_difference>()), "unique_applicable_event");
-  EXPECT_EQ(broken(apply_laws<never_refuses>()), "refuses_iff_it_leaves_the_sets");
-  EXPECT_EQ(broken(apply_laws<names_the_greatest_atom>()), "refusal_names_the_least_atom");
-  EXPECT_EQ(broken(apply_laws<counts_members_twice>()), "characteristic_adds");
-  EXPECT_EQ(broken(apply_laws<composes_by_the_later>()), "compatible_with_compose");
-  EXPECT_EQ(broken(apply_theorems<composes_by_the_later>()), "difference_is_a_functor");
+template <class E>
+void one_model_for_each_law_of_apply() {
+  EXPECT_EQ((broken(apply_laws<E, swaps_the_difference<E>>())), "unique_applicable_event");
+  EXPECT_EQ((broken(apply_laws<E, never_refuses<E>>())), "refuses_iff_it_leaves_the_sets");
+  EXPECT_EQ((broken(apply_laws<E, names_the_greatest_atom<E>>())), "refusal_names_the_least_atom");
+  EXPECT_EQ((broken(apply_laws<E, overlooks_the_least_member<E>>())), "characteristic_adds");
+  EXPECT_EQ((broken(apply_laws<E, composes_by_the_later<E>>())), "compatible_with_compose");
+  EXPECT_EQ((broken(apply_theorems<E, composes_by_the_later<E>>())), "difference_is_a_functor");
 }
+TEST(wrong_apply, one_model_for_each_law) { one_model_for_each_law_of_apply<event>(); }
+TEST(wrong_apply, one_model_for_each_law_of_dense_events) { one_model_for_each_law_of_apply<dense_event>(); }
+TEST(wrong_apply, one_model_for_each_law_of_foreign_events) { one_model_for_each_law_of_apply<map_event>(); }
 
 // Runs ----------------------------------------------------------------------------------------------------------------
 
-using events = std::span<event const>;
-using composed = rota::result<event, rota::no_run<atom>>;
-
-/// Subtracts each event from what came before: as a left fold merely what should have been the sum.
-struct subtracts : right_runs {
-  static event compose(event const& e, event const& f) { return rota::compose(e, rota::inverse(f)); }
-  static event fold(events run) {
-    event folded = run.front();
-    for (auto const& e : run.subspan(1)) folded = compose(folded, e);
+/// What has been composed so far, to which only single events can be added: right as a left fold, and in no other brackets.
+template <class E>
+struct accumulated {
+  E value{};
+  bool several = false;
+  friend bool operator==(accumulated const& x, accumulated const& y) { return x.value == y.value; }
+};
+template <class E>
+struct only_accumulates {
+  using item = accumulated<E>;
+  using set_type = set_of<E>;
+  static item combine(item const& e, item const& f) {
+    return f.several ? e : item{right<E>::combine(e.value, f.value), true};
+  }
+  static item difference(set_type const& c, set_type const& d) { return {right<E>::difference(c, d)}; }
+  static bool applicable(item const& e, set_type const& c) { return right<E>::applicable(e.value, c); }
+  static applied<E> apply(item const& e, set_type const& c) { return right<E>::apply(e.value, c); }
+  static composed<item> compose_run(std::span<item const> events) {
+    std::vector<E> values;
+    for (auto const& e : events) values.push_back(e.value);
+    auto const r = right_run(std::span<E const>(values));
+    if (!r) return rota::refused{r.error()};
+    return item{*r};
+  }
+  static std::map<atom, int> signs(item const& e) {
+    std::map<atom, int> r;
+    for (auto const& x : as<E>::read(e.value)) r[x.atom] = to_int(x.value);
+    return r;
+  }
+  static item event_with(std::map<atom, int> const& signs) {
+    event e;
+    for (auto const& [x, s] : signs) e = compose(e, s > 0 ? event::addition(x) : event::subtraction(x));
+    return {as<E>::stored(e)};
+  }
+  static set_type set_with(std::set<atom> const& members) {
+    return as<E>::stored(sample::atom_set(members.begin(), members.end()));
+  }
+  static std::set<atom> members(set_type const& c) {
+    auto const r = as<E>::read(c);
+    return {r.begin(), r.end()};
+  }
+};
+/// The later event wins, also in runs of several.
+template <class E>
+struct runs_by_the_later : composes_by_the_later<E> {
+  static composed<E> compose_run(std::span<E const> run) {
+    auto const r = right_run(run);
+    if (!r) return r;
+    E folded = run.front();
+    for (auto const& e : run.subspan(1)) folded = composes_by_the_later<E>::combine(folded, e);
     return folded;
   }
-  static delta sum(events run) { return delta(fold(run)); }
-  static composed compose_run(events run) {
-    auto const r = rota::compose_run(run);
-    if (!r) return r;
-    return fold(run);
+};
+template <class E>
+struct forgets_the_last : right<E> {
+  static composed<E> compose_run(std::span<E const> run) {
+    auto const r = right_run(run);
+    return r && run.size() > 3 ? right_run(run.first(run.size() - 1)) : r;
   }
 };
-struct sums_without_the_first : right_runs {
-  static delta sum(events run) { return right_runs::sum(run.subspan(1)); }
-};
-struct forgets_the_last : right_runs {
-  static composed compose_run(events run) {
-    auto const r = rota::compose_run(run);
-    return r && run.size() > 3 ? rota::compose_run(run.first(run.size() - 1)) : r;
-  }
-};
-struct composes_what_is_no_run : right_runs {
-  static composed compose_run(events run) {
-    auto const r = rota::compose_run(run);
+template <class E>
+struct composes_what_is_no_run : right<E> {
+  static composed<E> compose_run(std::span<E const> run) {
+    auto const r = right_run(run);
     if (r) return r;
-    return clamp(sum(run));
+    return run.front();
   }
 };
-struct blames_the_first_two : right_runs {
-  static composed compose_run(events run) {
-    auto const r = rota::compose_run(run);
+template <class E>
+struct blames_the_first_two : right<E> {
+  static composed<E> compose_run(std::span<E const> run) {
+    auto const r = right_run(run);
     if (r) return r;
     return rota::refused{rota::no_run<atom>{r.error().witness, 0, 1}};
   }
 };
-TEST(wrong_run, one_model_for_each_law) {
-  EXPECT_EQ(broken(run_laws<subtracts>()), "brackets_do_not_matter");
-  EXPECT_EQ(broken(run_laws<sums_without_the_first>()), "left_fold_is_the_sum");
-  EXPECT_EQ(broken(run_laws<forgets_the_last>()), "compose_run_is_the_left_fold");
-  EXPECT_EQ(broken(run_laws<composes_what_is_no_run>()), "compose_run_refuses_the_rest");
-  EXPECT_EQ(broken(run_laws<blames_the_first_two>()), "compose_run_refuses_the_rest");
+template <class E>
+void one_model_for_each_law_of_runs() {
+  EXPECT_EQ((broken(run_laws<accumulated<E>, only_accumulates<E>>())), "brackets_do_not_matter");
+  EXPECT_EQ((broken(run_laws<E, runs_by_the_later<E>>())), "left_fold_is_the_sum");
+  EXPECT_EQ((broken(run_laws<E, forgets_the_last<E>>())), "compose_run_is_the_left_fold");
+  EXPECT_EQ((broken(run_laws<E, composes_what_is_no_run<E>>())), "compose_run_refuses_the_rest");
+  EXPECT_EQ((broken(run_laws<E, blames_the_first_two<E>>())), "compose_run_refuses_the_rest");
 }
+TEST(wrong_run, one_model_for_each_law) { one_model_for_each_law_of_runs<event>(); }
+TEST(wrong_run, one_model_for_each_law_of_dense_events) { one_model_for_each_law_of_runs<dense_event>(); }
+TEST(wrong_run, one_model_for_each_law_of_foreign_events) { one_model_for_each_law_of_runs<map_event>(); }
 
 }  // namespace apply_test

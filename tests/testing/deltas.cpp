@@ -17,12 +17,24 @@ using sample::delta;
 using sample::event;
 using small_delta = rota::delta<atom, std::int8_t>;
 
+/// ι of a dense event, and the clamp back into its universe.
+struct dense_embedding {
+  using event_type = sample::dense_event;
+  using delta_type = delta;
+  static delta embed(event_type const& e) { return delta(e); }
+  static event_type clamp(delta const& d) { return to_dense(rota::clamp(d), sample::wide_universe{}).value(); }
+  static event_type compose(event_type const& e, event_type const& f) { return rota::compose(e, f); }
+};
+
 [[maybe_unused]] bool const registered =
     register_laws<delta>("delta") && register_laws("delta", group_theorems<delta>()) &&
     register_laws("delta", module_laws<delta>()) && register_laws("delta", module_theorems<delta>()) &&
     register_laws("delta", embedding_laws<embedding_model<atom>>()) &&
+    register_laws("dense_event", embedding_laws<dense_embedding>()) &&
     register_laws("delta", extension_laws<extension_model<atom>>()) && register_laws<small_delta>("delta_of_8_bits") &&
-    register_laws<sample::exact_delta>("delta_of_big_integers");
+    register_laws("delta_of_8_bits", module_laws<small_delta>()) &&
+    register_laws<sample::exact_delta>("delta_of_big_integers") &&
+    register_laws("delta_of_big_integers", module_laws<sample::exact_delta>());
 
 // ι and ρ -------------------------------------------------------------------------------------------------------------
 

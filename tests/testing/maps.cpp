@@ -14,14 +14,17 @@ namespace maps_test {
 
 using namespace rota::testing;
 using rota::fingerprint;
-using sample::atom;
 using sample::delta;
 using sample::event;
-using transition = rota::transition<atom>;
+using transition = rota::transition<sample::atom_set>;
+using dense_transition = rota::transition<sample::dense_set>;
 
 [[maybe_unused]] bool const registered =
     register_laws<transition>("transition") &&
-    register_laws("delta_of_transition", functor_laws<transition, delta>(&rota::delta_of<atom>)) &&
+    register_laws("delta_of_transition", functor_laws<transition, delta>(&rota::delta_of<sample::atom_set>)) &&
+    register_laws<dense_transition>("dense_transition") &&
+    register_laws("delta_of_dense_transition",
+                  functor_laws<dense_transition, delta>(&rota::delta_of<sample::dense_set>)) &&
     register_laws<fingerprint>("fingerprint") &&
     register_laws("fingerprint_of_delta",
                   homomorphism_laws<delta, fingerprint>([](delta const& d) { return fingerprint_of(d); })) &&

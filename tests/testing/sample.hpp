@@ -19,6 +19,14 @@ using atom_set = rota::atom_set<atom>;
 using event = rota::event<atom>;
 using delta = rota::delta<atom>;
 
+/// A universe around the atoms that are drawn: two plans and twelve tasks each, so that they lie in three words.
+template <class Name, int... Numbers>
+using numbered = rota::name_list<Name{Numbers}...>;
+using wide_universe = rota::in_universe<names, numbered<names::agent, 0, 1, 2, 3, 4, 5>, numbered<names::plan, 0, 1>,
+                                        numbered<names::task, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11>>;
+using dense_set = rota::dense_atom_set<wide_universe>;
+using dense_event = rota::dense_event<wide_universe>;
+
 /// An integer type that is no std::integral, as big integers are: wide enough here to be exact.
 struct exact {
   __extension__ using wide = __int128;

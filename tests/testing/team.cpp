@@ -1,6 +1,7 @@
 // Def. 2, Prop. 1 and Def. 5: every law a test of its own, such as conflict.definition_2.conflict_iff_some_cause; then one
 // wrong model per law.
 
+#include "testing/foreign.hpp"
 #include "testing/wrong.hpp"
 
 #include <rota/testing/gtest.hpp>
@@ -11,20 +12,21 @@ namespace team_test {
 using namespace rota::testing;
 using sample::atom;
 using sample::atom_set;
+using sample::dense_event;
 using sample::event;
+using sample::map_event;
 using sample::names;
 using allocation = rota::allocation<names>;
 using witness = rota::conflict_witness<names>;
 
 using right = conflict_model<names>;
 
-using cycle = cycle_model<names>;
-
 [[maybe_unused]] bool const registered =
     register_laws("conflict", conflict_laws<right>()) && register_laws("conflict", conflict_theorems<right>()) &&
     register_laws("conflict", proposition_1_laws<right>()) &&
-    register_laws("conflict", proposition_1_theorems<right>()) && register_laws("cycle", cycle_laws<cycle>()) &&
-    register_laws("cycle", cycle_theorems<cycle>());
+    register_laws("conflict", proposition_1_theorems<right>()) && register_laws("cycle", cycle_laws<event>()) &&
+    register_laws("cycle", cycle_theorems<event>()) && register_laws("dense_cycle", cycle_laws<dense_event>()) &&
+    register_laws("dense_cycle", cycle_theorems<dense_event>());
 
 /// Compares allocations of different plan types.
 struct ignores_the_type : right {
@@ -84,20 +86,28 @@ TEST(wrong_proposition_1, one_model_for_each_law) {
 }
 
 /// The whole allocation is restored, not b's part.
-struct asks_for_everybody : cycle_model<names> {
-  static bool is_cycle(event const& e_m, event const& e_r, names::agent) {
-    return !e_m.empty() && compose(e_m, e_r).empty();
+template <class E>
+struct asks_for_everybody : rota::structure<E> {
+  using right = rota::structure<E>;
+  static bool is_cycle(E const& e_m, E const& e_r, names::agent) {
+    return !(e_m == right::identity()) && right::combine(e_m, e_r) == right::identity();
   }
 };
-struct forgets_that_empty_is_no_event : cycle_model<names> {
-  static bool is_cycle(event const& e_m, event const& e_r, names::agent b) {
-    return !rota::mentions<names>(compose(e_m, e_r), b);
+template <class E>
+struct forgets_that_empty_is_no_event : rota::structure<E> {
+  static bool is_cycle(E const& e_m, E const& e_r, names::agent b) {
+    auto const both = rota::structure<E>::combine(e_m, e_r);
+    return !rota::mentions(storage<E, rota::structure<E>>::read(both), b);
   }
 };
-TEST(wrong_cycle, one_model_for_each_law) {
-  EXPECT_EQ(broken(cycle_laws<asks_for_everybody>()), "silent_about_b");
-  EXPECT_EQ(broken(cycle_laws<forgets_that_empty_is_no_event>()), "empty_message_is_no_event");
-  EXPECT_EQ(broken(cycle_theorems<asks_for_everybody>()), "restores_b_s_part");
+template <class E>
+void one_model_for_each_law_of_cycles() {
+  EXPECT_EQ((broken(cycle_laws<E, asks_for_everybody<E>>())), "silent_about_b");
+  EXPECT_EQ((broken(cycle_laws<E, forgets_that_empty_is_no_event<E>>())), "empty_message_is_no_event");
+  EXPECT_EQ((broken(cycle_theorems<E, asks_for_everybody<E>>())), "restores_b_s_part");
 }
+TEST(wrong_cycle, one_model_for_each_law) { one_model_for_each_law_of_cycles<event>(); }
+TEST(wrong_cycle, one_model_for_each_law_of_dense_events) { one_model_for_each_law_of_cycles<dense_event>(); }
+TEST(wrong_cycle, one_model_for_each_law_of_foreign_events) { one_model_for_each_law_of_cycles<map_event>(); }
 
 }  // namespace team_test

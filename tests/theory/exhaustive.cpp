@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -271,15 +272,29 @@ TEST(delta, holds_the_events) {
 }
 TEST(delta, refuses_what_its_coefficients_cannot_hold) {
   using small = rota::delta<atom, std::int8_t>;
-  law exact("checked_sum is exact, or refused");
-  for (int m = -128; m <= 127; ++m)
+  law sum("checked_sum is exact, or refused");
+  law difference("checked_difference is exact, or refused");
+  law product("checked_product is exact, or refused");
+  law negation("checked_negation is exact, or refused");
+  auto const at = [](int n) { return small(nth(1), static_cast<std::int8_t>(n)); };
+  auto const exact = [](auto const& r, int n) {
+    bool const fits = n >= -128 && n <= 127;
+    return r.has_value() == fits && (fits ? values_of(*r) == plus({}, {{nth(1), n}}) : r.error().witness == nth(1));
+  };
+  for (int m = -128; m <= 127; ++m) {
+    negation(exact(checked_negation(at(m)), -m));
     for (int n = -128; n <= 127; ++n) {
-      auto const r =
-          checked_sum(small(nth(1), static_cast<std::int8_t>(m)), small(nth(1), static_cast<std::int8_t>(n)));
-      bool const fits = m + n >= -128 && m + n <= 127;
-      exact(r.has_value() == fits &&
-            (fits ? values_of(*r) == plus({}, {{nth(1), m + n}}) : r.error().witness == nth(1)));
+      sum(exact(checked_sum(at(m), at(n)), m + n));
+      difference(exact(checked_difference(at(m), at(n)), m - n));
+      product(exact(checked_product(static_cast<std::int8_t>(m), at(n)), m * n));
     }
+  }
+  law least("a refusal names the least atom");
+  small const most = at(100) + small(nth(4), 100);
+  least(checked_sum(most, most).error().witness == nth(1) && checked_product(3, most).error().witness == nth(1) &&
+        checked_difference(at(-100), most).error().witness == nth(1));
+  small const later = at(1) + small(nth(4), 100);
+  least(checked_sum(later, later).error().witness == nth(4) && checked_product(3, later).error().witness == nth(4));
 }
 
 // Events acting on sets ----------------------------------------------------------------------------------------------------
@@ -321,19 +336,21 @@ TEST(difference, is_a_functor) {
   law functor("diff(C, C′) ∘ diff(C′, C″) = diff(C, C″)");
   law sum("ι(diff(C, C′)) + ι(diff(C′, C″)) = ι(diff(C, C″))");
   law arrows("transitions compose where they meet, and nowhere else");
-  using transition = rota::transition<atom>;
+  law made("C → e·C, where e is applicable");
+  using transition = rota::transition<atom_set>;
   auto const all = beliefs(2);
   for (auto const& c : all)
     for (auto const& d : all) {
       transition const t{c, d};
+      made(*transition::make(c, difference(c, d)) == t && inverse(t) == transition{d, c} &&
+           (c == d || transition::make(d, difference(c, d)).error() == apply(difference(c, d), d).error()));
       for (auto const& e : all) {
         transition const u{d, e};
         functor(compose(difference(c, d), difference(d, e)) == difference(c, e));
         sum(delta_of(t) + delta_of(u) == delta_of(compose(t, u)) && event_of(compose(t, u)) == difference(c, e));
         auto const meets = checked_compose(transition{c, d}, transition{e, c});
         arrows(meets.has_value() == (d == e) &&
-               (meets ? *meets == transition::identity(c)
-                      : d.contains(meets.error().witness) != e.contains(meets.error().witness)));
+               (meets ? *meets == transition::identity(c) : meets.error().witness == difference(d, e).begin()->atom));
       }
     }
 }
@@ -392,6 +409,8 @@ TEST(dense_event, is_the_sparse_one_in_every_operation) {
     }
   }
   auto const dense = [](auto const& x) { return to_dense(x, U{}).value(); };
+  law reads("ι, χ and h of either storage are the same");
+  law runs("compose_run of either storage is the same");
   for (auto const& e : all_events)
     for (auto const& f : all_events)
       for (auto const& g : all_events) {
@@ -400,6 +419,15 @@ TEST(dense_event, is_the_sparse_one_in_every_operation) {
       }
   for (auto const& e : all_events) {
     auto const d = dense(e);
+    reads(rota::delta(d) == rota::delta(e) && fingerprint_of(d) == fingerprint_of(e));
+    for (auto const& f : all_events)
+      for (auto const& g : all_events) {
+        std::vector const run{e, f, g};
+        std::vector const dense_run{d, dense(f), dense(g)};
+        auto const r = rota::compose_run(std::span<rota::dense_event<U> const>(dense_run));
+        auto const expected = rota::compose_run<std::size_t>(run);
+        runs(r.has_value() == expected.has_value() && (r ? to_sparse(*r) == *expected : r.error() == expected.error()));
+      }
     same(to_sparse(d) == e && to_sparse(inverse(d)) == inverse(e) && d.size() == e.size() && d.empty() == e.empty());
     same(to_sparse(d.additions()) == e.additions() && to_sparse(d.subtractions()) == e.subtractions());
     for (std::size_t const x : chosen) same(d(x) == e(x));
@@ -413,8 +441,16 @@ TEST(dense_event, is_the_sparse_one_in_every_operation) {
       if (!r && !expected) refuses(r.error() == expected.error());
     }
   }
+  law arrows("so are transitions");
   for (auto const& c : all_sets)
     for (auto const& d : all_sets) {
+      reads(rota::delta(dense(c)) == rota::delta(c) && fingerprint_of(dense(c)) == fingerprint_of(c));
+      rota::transition const t{c, d};
+      rota::transition const dense_t{dense(c), dense(d)};
+      arrows(to_sparse(event_of(dense_t)) == event_of(t) && delta_of(dense_t) == delta_of(t) &&
+             composable(dense_t, dense_t) == (c == d) &&
+             (c == d ? *checked_compose(dense_t, dense_t) == dense_t
+                     : checked_compose(dense_t, dense_t).error() == checked_compose(t, t).error()));
       same(to_sparse(difference(dense(c), dense(d))) == difference(c, d));
       same(to_sparse(unite(dense(c), dense(d))) == unite(c, d) && is_subset(dense(c), dense(d)) == is_subset(c, d));
       same(to_sparse(intersect(dense(c), dense(d))) == intersect(c, d) &&
@@ -541,6 +577,11 @@ TEST(proposition_1, the_witness_is_in_conflict_with_b) {
 
 TEST(cycle, restores_the_part_of_b) {
   law restores("a cycle ⇔ e_m ≠ ∅ and b's part is as it was");
+  law dense("of dense events, too");
+  using both_agents = rota::in_universe<names, rota::name_list<names::agent{0}, names::agent{1}>,
+                                        rota::name_list<names::plan{0}, names::plan{1}>,
+                                        rota::name_list<names::task{0}, names::task{1}, names::task{2}>>;
+  auto const in_planes = [](event const& e) { return to_dense(e, both_agents{}).value(); };
   auto const all = beliefs(2);
   for (auto const& before : all)
     for (std::uint8_t agent = 0; agent < 2; ++agent) {
@@ -548,8 +589,12 @@ TEST(cycle, restores_the_part_of_b) {
       for (std::size_t i = 0; i <= atoms_per_agent; ++i) {
         auto const told = with_part(before, b, i == atoms_per_agent ? atom_set{} : atom_set{nth(agent * 6u + i)});
         auto const e_m = difference(before, told);
-        for (auto const& after : all)
-          restores(is_cycle(e_m, difference(told, after), b) == (!e_m.empty() && part(after, b) == part(before, b)));
+        for (auto const& after : all) {
+          auto const e_r = difference(told, after);
+          bool const restored = !e_m.empty() && part(after, b) == part(before, b);
+          restores(is_cycle(e_m, e_r, b) == restored);
+          dense(is_cycle(in_planes(e_m), in_planes(e_r), b) == restored);
+        }
       }
     }
 }
@@ -607,6 +652,37 @@ TEST(every_size, composes_adds_differs_and_applies_pointwise) {
       auto const there = apply(difference(c, d), c);
       applies(there.has_value() && *there == d);
     }
+}
+
+TEST(every_size, of_a_universe_composes_as_sparse_events_do) {
+  law same("dense and sparse agree, whatever the number of words");
+  words next;
+  for (std::size_t const size : {1u, 63u, 64u, 65u, 128u, 1000u, 1023u, 1024u, 1025u, 1100u, 1984u, 2048u, 4100u}) {
+    std::vector<std::uint32_t> numbers(size);
+    for (std::size_t i = 0; i < size; ++i) numbers[i] = static_cast<std::uint32_t>(3 * i);
+    rota::atom_set<std::uint32_t> const all(numbers.begin(), numbers.end());
+    rota::listed_universe<std::uint32_t> const u(all);
+    auto const random = [&] {
+      std::vector<std::uint32_t> plus, minus;
+      for (auto const x : numbers) {
+        auto const which = next() % 4;
+        if (which < 2) (which == 0 ? plus : minus).push_back(x);
+      }
+      using set = rota::atom_set<std::uint32_t>;
+      return number_event::make(set(plus.begin(), plus.end()), set(minus.begin(), minus.end())).value();
+    };
+    auto const e = random();
+    auto const f = random();
+    auto const d = to_dense(e, u).value();
+    auto const g = to_dense(f, u).value();
+    same(to_sparse(compose(d, g)) == compose(e, f) && compose(d, g) == to_dense(compose(e, f), u).value());
+    same(to_sparse(inverse(d)) == inverse(e) && compose(d, inverse(d)).empty());
+    auto const c = e.additions();
+    auto const change = difference(d.additions(), g.additions());
+    same(to_sparse(change) == difference(c, f.additions()));
+    same(apply(change, d.additions()).value() == g.additions());
+    same(to_sparse(unite(d.additions(), g.additions())) == unite(c, f.additions()));
+  }
 }
 
 }  // namespace

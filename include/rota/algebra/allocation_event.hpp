@@ -4,16 +4,29 @@
 
 #include <concepts>
 #include <cstddef>
+#include <utility>
 
 namespace rota {
+
+namespace detail {
+
+/// `event` itself, or what `to_sparse` turns into it.
+template <class E>
+concept read_as_event = std::same_as<E, event<typename E::atom_type>> || requires(E const& e) {
+  { to_sparse(e) } -> std::same_as<event<typename E::atom_type>>;
+};
+
+}  // namespace detail
 
 /// An allocation event of Def. 3, whatever stores it: `event` keeps one sorted run, `dense_event` two bit planes.
 ///
 /// Laws: those of `commutative_magma` and, with an identity, `invertible_magma`; e ↦ e·C, `difference` and `applicable` as
-/// for `event`; and e is the sign function x ↦ e(x). Refuses `delta`, whose multiplicities are no signs, and atom sets.
+/// for `event`; e is the sign function x ↦ e(x), and so is `to_sparse(e)`. Refuses `delta`, whose multiplicities are no
+/// signs, and atom sets.
 template <class E>
 concept allocation_event =
     std::regular<E> && ordered_atom<typename E::atom_type> && std::regular<typename E::set_type> &&
+    detail::read_as_event<E> &&
     requires(E const& e, E const& f, typename E::atom_type const& x, typename E::set_type const& c) {
       { e(x) } -> std::same_as<sign>;
       { e.size() } -> std::same_as<std::size_t>;
@@ -27,5 +40,18 @@ concept allocation_event =
       { applicable(e, c) } -> std::same_as<bool>;
       { apply(e, c) } -> std::same_as<result<typename E::set_type, inapplicable<typename E::atom_type>>>;
     };
+
+/// A finite set of atoms that allocation events act on, whatever stores it: `atom_set`, `dense_atom_set`.
+///
+/// Refuses sets that have no `difference`, such as std::set.
+template <class C>
+concept allocation_set = std::regular<C> && requires(C const& c) {
+  { difference(c, c) } -> allocation_event;
+  requires std::same_as<typename decltype(difference(c, c))::set_type, C>;
+};
+
+/// The events that act on sets of this type.
+template <allocation_set C>
+using event_on = decltype(difference(std::declval<C const&>(), std::declval<C const&>()));
 
 }  // namespace rota

@@ -51,6 +51,31 @@ struct held_universe<U> {
   friend bool operator==(held_universe const&, held_universe const&) = default;
 };
 
+/// Writes planes of n words, one after the other: `words_at(i)` gives word i of each.
+template <std::size_t Planes, class F>
+[[gnu::always_inline]] constexpr void write_planes(word* out, std::size_t n, F& words_at) {
+  for (std::size_t i = 0; i < n; ++i) {
+    std::array<word, Planes> const w = words_at(i);
+    for (std::size_t plane = 0; plane < Planes; ++plane) out[plane * n + i] = w[plane];
+  }
+}
+
+// Where the compiler must not assume them, registers of 256 bits are asked for at run time; worth it from 1024 atoms on.
+// `out` is fresh, so nothing that is read there.
+#if defined(__GNUC__) && defined(__x86_64__) && !defined(__AVX2__)
+inline bool has_wide_registers() noexcept { return __builtin_cpu_supports("avx2") != 0; }
+template <std::size_t Planes, class F>
+[[gnu::target("avx2")]] void write_planes_widely(word* __restrict out, std::size_t n, F& words_at) {
+  write_planes<Planes>(out, n, words_at);
+}
+#else
+inline bool has_wide_registers() noexcept { return false; }
+template <std::size_t Planes, class F>
+void write_planes_widely(word* out, std::size_t n, F& words_at) {  // right, should a linker take it for the other
+  write_planes<Planes>(out, n, words_at);
+}
+#endif
+
 /// `Planes` subsets of a universe: bit i % 64 of word i / 64 of a plane tells whether atom i is in it.
 ///
 /// Class invariant: bits beyond the universe are zero. Moved from, one of run-time size is over the empty universe.
@@ -65,10 +90,10 @@ public:
   constexpr bit_planes(U const& universe, F&& words_at) : universe_{universe} {
     std::size_t const n = words();
     auto const fill = [&](word* out) {
-      for (std::size_t i = 0; i < n; ++i) {
-        std::array<word, Planes> const w = words_at(i);
-        for (std::size_t plane = 0; plane < Planes; ++plane) out[plane * n + i] = w[plane];
-      }
+      if (!std::is_constant_evaluated() && n >= 16 && has_wide_registers())
+        write_planes_widely<Planes>(out, n, words_at);
+      else
+        write_planes<Planes>(out, n, words_at);
       return out + Planes * n;
     };
     if constexpr (fixed_universe<U>) {

@@ -40,14 +40,50 @@ concept integer_coefficient =
       { a* b } -> std::convertible_to<T>;
     };
 
+namespace detail {
+
+/// out = a + b; false where that leaves the type. Types that are no C++ integers are exact and hold everything.
+template <integer_coefficient T>
+constexpr bool add(T const& a, T const& b, T& out) {
+  if constexpr (std::integral<T>) {
+    return !__builtin_add_overflow(a, b, &out);
+  } else {
+    out = a + b;
+    return true;
+  }
+}
+/// out = a − b, likewise.
+template <integer_coefficient T>
+constexpr bool subtract(T const& a, T const& b, T& out) {
+  if constexpr (std::integral<T>) {
+    return !__builtin_sub_overflow(a, b, &out);
+  } else {
+    out = a + b * T{-1};
+    return true;
+  }
+}
+/// out = a·b, likewise.
+template <integer_coefficient T>
+constexpr bool multiply(T const& a, T const& b, T& out) {
+  if constexpr (std::integral<T>) {
+    return !__builtin_mul_overflow(a, b, &out);
+  } else {
+    out = a * b;
+    return true;
+  }
+}
+
+}  // namespace detail
+
 /// A finitely supported function Atoms → ℤ: an element of the free abelian group ℤ^(Atoms).
 ///
 /// This is the abelian group of allocation events; the paper's events (Def. 3) are its elements with values in {−1, 0, +1},
 /// and the paper's composition (Def. 4) is its sum, clamped. Class invariant: entries strictly ascending by atom, no count
 /// zero.
 ///
-/// Laws: abelian group under `+` with identity `{}`; ℤ-module under `*`. @pre of `+`, `−`, `*`: no coefficient overflows
-/// (those of −e in d − e included); `checked_sum` refuses instead. Sums take O(|d| + |e|).
+/// Laws: abelian group under `+` with identity `{}`; ℤ-module under `*`. @pre of `+`, `−`, `*`: no coefficient of the result
+/// overflows; `checked_sum`, `checked_difference`, `checked_negation` and `checked_product` refuse instead. Sums take
+/// O(|d| + |e|).
 template <ordered_atom Atom, integer_coefficient Coefficient = std::int64_t>
 class delta {
 public:
@@ -68,6 +104,10 @@ public:
     entries_.reserve(c.size());
     for (auto const& x : c) entries_.push_back({x, Coefficient{1}});
   }
+  /// ι or χ of an event or a set that is stored otherwise: of what `to_sparse` says that it is.
+  template <class X>
+    requires requires(X const& x) { delta(to_sparse(x)); }
+  constexpr explicit delta(X const& x) : delta(to_sparse(x)) {}
   /// The generator n·x.
   constexpr delta(Atom const& x, Coefficient n) {
     if (n != Coefficient{}) entries_.push_back({x, n});
@@ -90,46 +130,33 @@ public:
   /// A total order (lexicographic by entries), for keys only.
   friend auto operator<=>(delta const&, delta const&) = default;
 
-  [[nodiscard]] friend constexpr delta operator+(delta const& d, delta const& e) {
-    auto sum = checked_sum(d, e);
-    ROTA_ASSERT(sum.has_value());
-    return *std::move(sum);
+  [[nodiscard]] friend constexpr delta operator+(delta const& d, delta const& e) { return checked(checked_sum(d, e)); }
+  [[nodiscard]] friend constexpr delta operator-(delta const& d) { return checked(checked_negation(d)); }
+  [[nodiscard]] friend constexpr delta operator-(delta const& d, delta const& e) {
+    return checked(checked_difference(d, e));
   }
-  [[nodiscard]] friend constexpr delta operator-(delta const& d) { return d * Coefficient{-1}; }
-  [[nodiscard]] friend constexpr delta operator-(delta const& d, delta const& e) { return d + -e; }
-  [[nodiscard]] friend constexpr delta operator*(delta const& d, Coefficient const& n) {
-    delta r;
-    if (n == Coefficient{}) return r;
-    r.entries_.reserve(d.size());
-    for (entry const& x : d) {
-      ROTA_ASSERT(product_fits(x.count, n));
-      r.entries_.push_back({x.atom, static_cast<Coefficient>(x.count * n)});
-    }
-    return r;
+  [[nodiscard]] friend constexpr delta operator*(Coefficient const& n, delta const& d) {
+    return checked(checked_product(n, d));
   }
-  [[nodiscard]] friend constexpr delta operator*(Coefficient const& n, delta const& d) { return d * n; }
+  [[nodiscard]] friend constexpr delta operator*(delta const& d, Coefficient const& n) { return n * d; }
   constexpr delta& operator+=(delta const& e) { return *this = *this + e; }
   constexpr delta& operator-=(delta const& e) { return *this = *this - e; }
 
-  template <ordered_atom A, integer_coefficient C>
-  friend constexpr result<delta<A, C>, coefficient_overflow<A>> checked_sum(delta<A, C> const&, delta<A, C> const&);
+  /// The delta with these entries. @pre strictly ascending by atom, no count zero
+  [[nodiscard]] static constexpr delta from_entries(small_vector<entry, 8> entries) {
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      ROTA_ASSERT(entries[i].count != Coefficient{});
+      ROTA_ASSERT(i == 0 || entries[i - 1].atom < entries[i].atom);
+    }
+    delta d;
+    d.entries_ = std::move(entries);
+    return d;
+  }
 
 private:
-  static constexpr bool sum_fits(Coefficient const& a, Coefficient const& b) {
-    if constexpr (std::integral<Coefficient>) {
-      using limits = std::numeric_limits<Coefficient>;
-      return b >= 0 ? a <= limits::max() - b : a >= limits::min() - b;
-    } else {
-      return true;  // an exact integer type
-    }
-  }
-  static constexpr bool product_fits(Coefficient const& a, Coefficient const& b) {
-    if constexpr (std::integral<Coefficient>) {
-      Coefficient out{};
-      return !__builtin_mul_overflow(a, b, &out);
-    } else {
-      return true;
-    }
+  static constexpr delta checked(result<delta, coefficient_overflow<Atom>> r) {
+    ROTA_ASSERT(r.has_value());
+    return *std::move(r);
   }
 
   small_vector<entry, 8> entries_;
@@ -139,31 +166,63 @@ template <ordered_atom Atom>
 delta(event<Atom>) -> delta<Atom>;
 template <ordered_atom Atom>
 delta(atom_set<Atom>) -> delta<Atom>;
+template <class X>
+  requires requires(X const& x) { to_sparse(x); }
+delta(X) -> delta<typename X::atom_type>;
+
+namespace detail {
+
+/// x ↦ combine(d(x), e(x)), where `combine(n, 0)` is n; or the least atom at which it overflows.
+template <ordered_atom Atom, integer_coefficient T, class F>
+constexpr result<delta<Atom, T>, coefficient_overflow<Atom>> merge(delta<Atom, T> const& d, delta<Atom, T> const& e,
+                                                                   F combine) {
+  small_vector<multiple<Atom, T>, 8> entries;
+  entries.reserve(d.size() + e.size());
+  auto x = d.begin();
+  for (auto const& y : e) {
+    while (x != d.end() && x->atom < y.atom) entries.push_back(*x++);
+    bool const both = x != d.end() && !(y.atom < x->atom);
+    T n{};
+    if (!combine(both ? x->count : T{}, y.count, n)) return refused{coefficient_overflow<Atom>{y.atom}};
+    if (n != T{}) entries.push_back({y.atom, n});
+    x += both;
+  }
+  for (; x != d.end(); ++x) entries.push_back(*x);
+  return delta<Atom, T>::from_entries(std::move(entries));
+}
+
+}  // namespace detail
 
 /// d + e, or the least atom whose multiplicity overflows. O(|d| + |e|).
-template <ordered_atom Atom, integer_coefficient Coefficient>
-[[nodiscard]] constexpr result<delta<Atom, Coefficient>, coefficient_overflow<Atom>>
-checked_sum(delta<Atom, Coefficient> const& d, delta<Atom, Coefficient> const& e) {
-  using group = delta<Atom, Coefficient>;
-  group r;
-  r.entries_.reserve(d.size() + e.size());
-  auto x = d.begin();
-  auto y = e.begin();
-  while (x != d.end() && y != e.end()) {
-    if (x->atom < y->atom) {
-      r.entries_.push_back(*x++);
-    } else if (y->atom < x->atom) {
-      r.entries_.push_back(*y++);
-    } else {
-      if (!group::sum_fits(x->count, y->count)) return refused{coefficient_overflow<Atom>{x->atom}};
-      auto const n = static_cast<Coefficient>(x->count + y->count);
-      if (n != Coefficient{}) r.entries_.push_back({x->atom, n});
-      ++x, ++y;
-    }
+template <ordered_atom Atom, integer_coefficient T>
+[[nodiscard]] constexpr result<delta<Atom, T>, coefficient_overflow<Atom>> checked_sum(delta<Atom, T> const& d,
+                                                                                       delta<Atom, T> const& e) {
+  return detail::merge(d, e, detail::add<T>);
+}
+/// d − e, likewise: refused only where d(x) − e(x) overflows, whatever −e(x) does.
+template <ordered_atom Atom, integer_coefficient T>
+[[nodiscard]] constexpr result<delta<Atom, T>, coefficient_overflow<Atom>> checked_difference(delta<Atom, T> const& d,
+                                                                                              delta<Atom, T> const& e) {
+  return detail::merge(d, e, detail::subtract<T>);
+}
+/// −d, likewise: the least number of a bounded type has no opposite. O(|d|).
+template <ordered_atom Atom, integer_coefficient T>
+[[nodiscard]] constexpr result<delta<Atom, T>, coefficient_overflow<Atom>> checked_negation(delta<Atom, T> const& d) {
+  return checked_difference({}, d);
+}
+/// n·d, likewise. O(|d|).
+template <ordered_atom Atom, integer_coefficient T>
+[[nodiscard]] constexpr result<delta<Atom, T>, coefficient_overflow<Atom>>
+checked_product(std::type_identity_t<T> const& n, delta<Atom, T> const& d) {
+  small_vector<multiple<Atom, T>, 8> entries;
+  if (n == T{}) return delta<Atom, T>{};
+  entries.reserve(d.size());
+  for (auto const& x : d) {
+    T product{};
+    if (!detail::multiply(n, x.count, product)) return refused{coefficient_overflow<Atom>{x.atom}};
+    entries.push_back({x.atom, product});
   }
-  for (; x != d.end(); ++x) r.entries_.push_back(*x);
-  for (; y != e.end(); ++y) r.entries_.push_back(*y);
-  return r;
+  return delta<Atom, T>::from_entries(std::move(entries));
 }
 
 /// ρ : delta → event, the clamp into [−1, +1]. ρ(ι(e)) = e and compose(e, f) = ρ(ι(e) + ι(f)); no homomorphism. O(|d|).

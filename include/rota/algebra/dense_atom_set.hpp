@@ -54,13 +54,16 @@ public:
   /// The set whose word i is `word_at(i)`. @pre no bit beyond the universe
   template <std::invocable<std::size_t> F>
   [[nodiscard]] static constexpr dense_atom_set from_words(U const& universe, F&& word_at) {
-    dense_atom_set c;
-    c.bits_ = planes(universe, [&](std::size_t i) { return std::array{word_at(i)}; });
+    auto const words_at = [&](std::size_t i) { return std::array{word_at(i)}; };
+    dense_atom_set c(universe, words_at);
     ROTA_ASSERT(c.bits_.within_universe());
     return c;
   }
 
 private:
+  // Made in place, as `dense_event`.
+  template <std::invocable<std::size_t> F>
+  constexpr dense_atom_set(U const& universe, F& words_at) : bits_(universe, words_at) {}
   constexpr result<bool, outside_universe<atom_type>> put(atom_type const& x, bool value) {
     auto const i = universe().index_of(x);
     if (!i) return refused{i.error()};

@@ -103,5 +103,11 @@ template <encodable_atom Atom>
   for (auto const& x : c) h = h + code(x);
   return h;
 }
+/// The same of an event or a set that is stored otherwise.
+template <class X>
+  requires requires(X const& x) { fingerprint_of(to_sparse(x)); }
+[[nodiscard]] constexpr fingerprint fingerprint_of(X const& x) {
+  return fingerprint_of(to_sparse(x));
+}
 
 }  // namespace rota

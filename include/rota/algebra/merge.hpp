@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <type_traits>
 
 /// Merging two runs of signed atoms, strictly ascending by atom. Nothing predicts which of two atoms is less, so no step
@@ -27,11 +28,23 @@ struct merge_step {
       : from_x(as_number(x_first)), from_y(as_number(y_first)), left((from_x ^ from_y) | (x.value == y.value)) {}
 };
 
+/// *out = *from, padding included: a large entry is copied by few wide moves instead of member by member.
+template <class Entry>
+constexpr void copy_whole(Entry* out, Entry const* from) {
+  if constexpr (std::is_trivially_copyable_v<Entry>) {
+    if (!std::is_constant_evaluated()) {
+      std::memcpy(out, from, sizeof(Entry));
+      return;
+    }
+  }
+  *out = *from;
+}
+
 /// std::copy, without a call where there is next to nothing to copy.
 template <class Entry>
 constexpr Entry* copy_run(Entry const* first, Entry const* last, Entry* out) {
   if (last - first > 8) return std::copy(first, last, out);
-  while (first != last) *out++ = *first++;
+  while (first != last) copy_whole(out++, first++);
   return out;
 }
 
@@ -42,7 +55,7 @@ constexpr Entry* merge_evenly(Entry const* x, Entry const* x_end, Entry const* y
   Entry* back = end;
   auto const at_the_front = [&] {
     merge_step const step(*x, *y, !(y->atom < x->atom), !(x->atom < y->atom));
-    *out = *(step.from_x ? x : y);
+    copy_whole(out, step.from_x ? x : y);
     x += step.from_x;
     y += step.from_y;
     out += step.left;
@@ -51,12 +64,13 @@ constexpr Entry* merge_evenly(Entry const* x, Entry const* x_end, Entry const* y
     auto const* const i = x_end - 1;
     auto const* const j = y_end - 1;
     merge_step const step(*i, *j, !(i->atom < j->atom), !(j->atom < i->atom));
-    back[-1] = *(step.from_x ? i : j);
+    copy_whole(back - 1, step.from_x ? i : j);
     x_end -= step.from_x;
     y_end -= step.from_y;
     back -= step.left;
   };
-  auto const safe_steps = [&] { return std::min(x_end - x, y_end - y) / 2; };  // for so many, the ends cannot meet
+  // For so many, the ends cannot meet.
+  auto const safe_steps = [&] { return static_cast<std::size_t>(std::min(x_end - x, y_end - y)) / 2; };
   for (auto steps = safe_steps(); steps > 1; steps = safe_steps())
     for (; steps > 0; --steps) {
       at_the_front();
@@ -88,9 +102,11 @@ constexpr Entry* merge_into(Entry const* x, Entry const* x_end, Entry const* y, 
 /// Writes the clamped sum of two events, at most |x| + |y| entries, and returns its end.
 template <class Entry>
 constexpr Entry* merge(Entry const* x, Entry const* x_end, Entry const* y, Entry const* y_end, Entry* out) {
-  constexpr std::ptrdiff_t lopsided = 16;
-  if ((x_end - x) / lopsided > y_end - y) return merge_into(x, x_end, y, y_end, out);
-  if ((y_end - y) / lopsided > x_end - x) return merge_into(y, y_end, x, x_end, out);
+  constexpr std::size_t lopsided = 16;
+  auto const m = static_cast<std::size_t>(x_end - x);
+  auto const n = static_cast<std::size_t>(y_end - y);
+  if (m / lopsided > n) return merge_into(x, x_end, y, y_end, out);
+  if (n / lopsided > m) return merge_into(y, y_end, x, x_end, out);
   return merge_evenly(x, x_end, y, y_end, out);
 }
 

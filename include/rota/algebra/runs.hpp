@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/algebra/allocation_event.hpp>
 #include <rota/algebra/delta.hpp>
 
 #include <algorithm>
@@ -44,6 +45,18 @@ template <ordered_atom Atom>
     if ((m - first) % 2 != 0) entries.push_back({first->atom, first->value});
   }
   return event<Atom>::from_entries(std::move(entries));
+}
+
+/// The same of events that are stored otherwise; of no events, the identity of the empty universe.
+template <allocation_event E>
+[[nodiscard]] constexpr result<E, no_run<typename E::atom_type>> compose_run(std::span<E const> events) {
+  using sparse = event<typename E::atom_type>;
+  std::vector<sparse> same;
+  for (E const& e : events) same.push_back(to_sparse(e));
+  if (auto const run = compose_run(std::span<sparse const>(same)); !run) return refused{run.error()};
+  E composed = events.empty() ? E{} : events.front();
+  for (E const& e : events.subspan(events.empty() ? 0 : 1)) composed = compose(composed, e);  // any brackets will do
+  return composed;
 }
 
 /// δ₁ + … + δₙ. Any order and any brackets give the same, if each arrives exactly once. @pre no partial sum overflows.

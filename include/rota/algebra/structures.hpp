@@ -11,25 +11,44 @@
 
 namespace rota {
 
-/// Def. 4: a commutative unital magma with inverses. Not associative, hence no group.
-template <ordered_atom Atom>
-struct structure<event<Atom>> {
-  static constexpr event<Atom> combine(event<Atom> const& e, event<Atom> const& f) { return compose(e, f); }
-  static constexpr event<Atom> identity() { return {}; }
-  static constexpr event<Atom> inverse(event<Atom> const& e) { return rota::inverse(e); }
+/// What an allocation event is, whatever stores it. Under Def. 4 a commutative unital magma with inverses; not associative,
+/// hence no group. And how it acts on sets, where it is applicable.
+///
+/// A type of your own that is an `allocation_event` opts in by deriving its structure from this one.
+template <allocation_event E>
+struct event_structure {
+  using set_type = typename E::set_type;
+
+  // The library's functions, or those beside a type of your own.
+  static constexpr E combine(E const& e, E const& f) { return compose(e, f); }
+  static constexpr E identity() { return {}; }
+  static constexpr E inverse(E const& e) {
+    using rota::inverse;
+    return inverse(e);
+  }
   static constexpr bool commutative = true;
+
+  static constexpr E difference(set_type const& before, set_type const& after) {
+    using rota::difference;
+    return difference(before, after);
+  }
+  static constexpr bool applicable(E const& e, set_type const& c) {
+    using rota::applicable;
+    return applicable(e, c);
+  }
+  static constexpr auto apply(E const& e, set_type const& c) {
+    using rota::apply;
+    return apply(e, c);
+  }
 };
 
-/// As `event`, where the type determines the universe. Else composition is partial and the type no magma: events of two
-/// universes do not compose.
+template <ordered_atom Atom>
+struct structure<event<Atom>> : event_structure<event<Atom>> {};
+
+/// Where the type determines the universe. Else composition is partial and the type no magma: events of two universes do not
+/// compose.
 template <fixed_universe U>
-struct structure<dense_event<U>> {
-  using type = dense_event<U>;
-  static constexpr type combine(type const& e, type const& f) { return compose(e, f); }
-  static constexpr type identity() { return {}; }
-  static constexpr type inverse(type const& e) { return rota::inverse(e); }
-  static constexpr bool commutative = true;
-};
+struct structure<dense_event<U>> : event_structure<dense_event<U>> {};
 
 /// ℤ^(Atoms) under addition.
 template <ordered_atom Atom, integer_coefficient Coefficient>
@@ -53,12 +72,12 @@ struct structure<fingerprint> {
 };
 
 /// The pair groupoid of atom sets.
-template <ordered_atom Atom>
-struct structure<transition<Atom>> {
-  using type = transition<Atom>;
-  static constexpr atom_set<Atom> source(type const& t) { return t.source(); }
-  static constexpr atom_set<Atom> target(type const& t) { return t.target(); }
-  static constexpr type identity(atom_set<Atom> const& c) { return type::identity(c); }
+template <allocation_set Set>
+struct structure<transition<Set>> {
+  using type = transition<Set>;
+  static constexpr Set source(type const& t) { return t.source(); }
+  static constexpr Set target(type const& t) { return t.target(); }
+  static constexpr type identity(Set const& c) { return type::identity(c); }
   static constexpr type compose(type const& t, type const& u) { return rota::compose(t, u); }
   static constexpr type inverse(type const& t) { return rota::inverse(t); }
 };

@@ -123,7 +123,8 @@ public:
   template <std::invocable<T*> F>
   constexpr void append(std::size_t most, F&& write) {
     reserve(size_ + most);
-    size_ = static_cast<std::size_t>(write(end()) - data());
+    T* const first = end();
+    size_ += static_cast<std::size_t>(write(first) - first);
   }
   /// @pre `!empty()`
   constexpr void pop_back() noexcept {

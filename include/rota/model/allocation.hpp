@@ -1,7 +1,7 @@
 #pragma once
 
+#include <rota/algebra/allocation_event.hpp>
 #include <rota/algebra/atom_set.hpp>
-#include <rota/algebra/event.hpp>
 #include <rota/core/atom.hpp>
 
 #include <algorithm>
@@ -42,6 +42,11 @@ template <vocabulary V>
   auto const* first = std::lower_bound(
       e.begin(), e.end(), b, [](signed_atom<in<V>> const& x, typename V::agent key) { return key > x.atom.agent; });
   return first != e.end() && first->atom.agent == b;
+}
+/// The same of an event that is stored otherwise. Takes as long as `to_sparse`.
+template <allocation_event E>
+[[nodiscard]] constexpr bool mentions(E const& e, typename E::atom_type::vocabulary_type::agent b) {
+  return mentions(to_sparse(e), b);
 }
 
 }  // namespace rota

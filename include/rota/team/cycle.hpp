@@ -7,9 +7,9 @@ namespace rota {
 /// Def. 5: e_m ∘ e_r mentions no In(b, ·, ·), where e_m is the non-empty event of a message from b, and e_r the next
 /// *reallocation* of the receiver; equivalently, for adjacent events, b's part of the allocation is restored.
 ///
-/// An empty e_m is no event, hence no cycle. O(|e_m| + |e_r|).
-template <vocabulary V>
-[[nodiscard]] constexpr bool is_cycle(event<in<V>> const& e_m, event<in<V>> const& e_r, typename V::agent b) {
+/// An empty e_m is no event, hence no cycle. Events of any storage, whose atoms are In-atoms; O(|e_m| + |e_r|) for `event`.
+template <allocation_event E>
+[[nodiscard]] constexpr bool is_cycle(E const& e_m, E const& e_r, typename E::atom_type::vocabulary_type::agent b) {
   return !e_m.empty() && !mentions(compose(e_m, e_r), b);
 }
 

@@ -1,31 +1,16 @@
 #pragma once
 /// @file
-/// The laws of `difference` and `apply`, and of runs. The model M names the functions; the defaults are the library's own.
+/// The laws of `difference` and `apply`, and of runs, for events E and sets of any storage. The structure S names the
+/// functions; storage.hpp says what a type of your own needs beside them.
 
 #include <rota/algebra/action.hpp>
 #include <rota/algebra/runs.hpp>
-#include <rota/testing/arbitrary.hpp>
+#include <rota/testing/storage.hpp>
 
 #include <span>
 #include <vector>
 
 namespace rota::testing {
-
-/// Events acting on sets of atoms.
-template <class Atom>
-struct apply_model {
-  using atom_type = Atom;
-  [[nodiscard]] static event<Atom> difference(atom_set<Atom> const& c, atom_set<Atom> const& d) {
-    return rota::difference(c, d);
-  }
-  [[nodiscard]] static bool applicable(event<Atom> const& e, atom_set<Atom> const& c) { return rota::applicable(e, c); }
-  static result<atom_set<Atom>, inapplicable<Atom>> apply(event<Atom> const& e, atom_set<Atom> const& c) {
-    return rota::apply(e, c);
-  }
-  [[nodiscard]] static delta<Atom> characteristic(atom_set<Atom> const& c) { return delta<Atom>(c); }
-  [[nodiscard]] static delta<Atom> embed(event<Atom> const& e) { return delta<Atom>(e); }
-  [[nodiscard]] static event<Atom> compose(event<Atom> const& e, event<Atom> const& f) { return rota::compose(e, f); }
-};
 
 namespace detail {
 
@@ -46,116 +31,137 @@ template <class Atom>
   return atoms;
 }
 
+/// A set C and an event that may be applied at it, each as drawn and as stored.
+template <class E, class S>
+struct event_at_set {
+  using as = storage<E, S>;
+  typename as::sparse_set sparse_c = draw<typename as::sparse_set>("C");
+  typename as::sparse_event sparse_e = *event_at(sparse_c).as("e");
+  typename as::set_type c = as::stored(sparse_c);
+  E e = as::stored(sparse_e);
+};
+
 }  // namespace detail
 
 /// unique_applicable_event, characteristic_adds, refuses_iff_it_leaves_the_sets, refusal_names_the_least_atom,
 /// compatible_with_compose.
-template <class M>
+template <class E, class S = structure<E>>
+  requires acts_on_sets<E, S>
 [[nodiscard]] bundle apply_laws() {
-  using Atom = typename M::atom_type;
-  using set = atom_set<Atom>;
+  using as = storage<E, S>;
+  using drawn = detail::event_at_set<E, S>;
+  using Atom = typename as::atom_type;
   bundle laws("apply");
   laws.add("unique_applicable_event", "e applicable at C and e·C = C′ ⇔ e = diff(C, C′)", [] {
-    auto const c = draw<set>("C");
-    auto const d = *set_beside(c).as("C′");
-    auto const e = *event_at(c).as("e");
-    auto const there = M::difference(c, d);
-    holds(M::applicable(there, c), "diff(C, C′) is applicable at C");
-    same("diff(C, C′)·C", M::apply(there, c).value(), "C′", d);
-    if (auto const to = M::apply(e, c); M::applicable(e, c) && to) same("diff(C, e·C)", M::difference(c, *to), "e", e);
+    auto const [sparse_c, sparse_e, c, e] = drawn();
+    auto const d = as::stored(*set_beside(sparse_c).as("C′"));
+    auto const there = S::difference(c, d);
+    auto const arrived = S::apply(there, c);
+    holds(S::applicable(there, c) && arrived, "diff(C, C′) is applicable at C");
+    as::same("diff(C, C′)·C", *arrived, "C′", d);
+    if (auto const to = S::apply(e, c); S::applicable(e, c) && to)
+      as::same("diff(C, e·C)", S::difference(c, *to), "e", e);
   });
   laws.add("characteristic_adds", "χ(e·C) = χ(C) + ι(e) where e is applicable",
            [] {
-             auto const c = draw<set>("C");
-             auto const e = *event_at(c).as("e");
-             auto const to = M::apply(e, c);
-             bool const applies = M::applicable(e, c) && to;
-             interesting(applies && !e.empty(), "applicable, and changes something");
-             if (applies) same("χ(e·C)", M::characteristic(*to), "χ(C) + ι(e)", M::characteristic(c) + M::embed(e));
+             auto const [sparse_c, sparse_e, c, e] = drawn();
+             auto const to = S::apply(e, c);
+             bool const applies = S::applicable(e, c) && to;
+             interesting(applies && !sparse_e.empty(), "applicable, and changes something");
+             if (applies)
+               testing::same("χ(e·C)", delta<Atom>(as::read(*to)), "χ(C) + ι(e)",
+                             delta<Atom>(as::read(c)) + delta<Atom>(as::read(e)));
            },
            {{"applicable, and changes something"}});
   laws.add("refuses_iff_it_leaves_the_sets", "e·C is refused ⇔ e is not applicable ⇔ e⁺ ∩ C ≠ ∅ or e⁻ ⊈ C",
            [] {
-             auto const c = draw<set>("C");
-             auto const e = *event_at(c).as("e");
-             bool const stays = detail::offending(e, c).empty();
+             auto const [sparse_c, sparse_e, c, e] = drawn();
+             bool const stays = detail::offending(sparse_e, sparse_c).empty();
              interesting(!stays, "not applicable");
-             holds(M::apply(e, c).has_value() == stays, "e·C exists iff χ(C) + ι(e) stays in {0, 1}");
-             holds(M::applicable(e, c) == stays, "e is called applicable iff χ(C) + ι(e) stays in {0, 1}");
+             holds(S::apply(e, c).has_value() == stays, "e·C exists iff χ(C) + ι(e) stays in {0, 1}");
+             holds(S::applicable(e, c) == stays, "e is called applicable iff χ(C) + ι(e) stays in {0, 1}");
            },
            {{"not applicable"}});
   laws.add("refusal_names_the_least_atom", "e·C refused ⇒ its witness is the least atom at which χ(C) + ι(e) ∉ {0, 1}",
            [] {
-             auto const c = draw<set>("C");
-             auto const e = *event_at(c).as("e");
-             auto const bad = detail::offending(e, c);
+             auto const [sparse_c, sparse_e, c, e] = drawn();
+             auto const bad = detail::offending(sparse_e, sparse_c);
              interesting(bad.size() > 1, "several atoms offend");
-             if (auto const to = M::apply(e, c); !to && !bad.empty())
-               same("the witness", to.error().witness, "the least offending atom", *bad.begin());
+             if (auto const to = S::apply(e, c); !to && !bad.empty())
+               testing::same<Atom>("the witness", to.error().witness, "the least offending atom", *bad.begin());
            },
            {{"several atoms offend"}});
   laws.add("compatible_with_compose", "f·(e·C) = (e∘f)·C where the left side exists",
            [] {
-             auto const c = draw<set>("C");
-             auto const e = detail::leading<Atom>(c, *set_beside(c).as("e·C"));
-             auto const once = M::apply(e, c);
+             auto const from = draw<typename as::sparse_set>("C");
+             auto const over = *set_beside(from).as("e·C");
+             auto const to = *set_beside(over).as("f·(e·C)");
+             auto const c = as::stored(from);
+             auto const e = as::stored(detail::leading(from, over));
+             auto const f = as::stored(detail::leading(over, to));
+             auto const once = S::apply(e, c);
              if (!once) return;
-             auto const f = detail::leading<Atom>(*once, *set_beside(*once).as("f·(e·C)"));
-             auto const twice = M::apply(f, *once);
+             auto const twice = S::apply(f, *once);
              if (!twice) return;
-             interesting(!e.empty() && !f.empty(), "both change something");
-             auto const e_f = M::compose(e, f);
-             auto const at_once = M::apply(e_f, c);
-             if (!at_once) refute("e∘f is " + rc::toString(e_f) + ", which is not applicable at C");
-             same("(e∘f)·C", *at_once, "f·(e·C)", *twice);
+             interesting(from != over && over != to, "both change something");
+             auto const e_f = S::combine(e, f);
+             auto const at_once = S::apply(e_f, c);
+             if (!at_once) refute("e∘f is " + rc::toString(as::read(e_f)) + ", which is not applicable at C");
+             as::same("(e∘f)·C", *at_once, "f·(e·C)", *twice);
            },
            {{"both change something"}});
   return laws;
 }
 /// difference_is_a_functor: follows from the unique event and compatibility.
-template <class M>
+template <class E, class S = structure<E>>
+  requires acts_on_sets<E, S>
 [[nodiscard]] bundle apply_theorems() {
-  using set = atom_set<typename M::atom_type>;
+  using as = storage<E, S>;
   bundle laws("apply_theorems");
   laws.add("difference_is_a_functor", "diff(C, C′)∘diff(C′, C″) = diff(C, C″), diff(C, C) = ∅", [] {
-    auto const c = draw<set>("C");
-    auto const d = *set_beside(c).as("C′");
-    auto const e = *set_beside(d).as("C″");
-    same("diff(C, C′)∘diff(C′, C″)", M::compose(M::difference(c, d), M::difference(d, e)), "diff(C, C″)",
-         M::difference(c, e));
-    holds(M::difference(c, c).empty(), "diff(C, C) = ∅");
+    auto const from = draw<typename as::sparse_set>("C");
+    auto const over = *set_beside(from).as("C′");
+    auto const c = as::stored(from);
+    auto const d = as::stored(over);
+    auto const e = as::stored(*set_beside(over).as("C″"));
+    as::same("diff(C, C′)∘diff(C′, C″)", S::combine(S::difference(c, d), S::difference(d, e)), "diff(C, C″)",
+             S::difference(c, e));
+    as::same("diff(C, C)", S::difference(c, c), "∅", S::identity());
   });
   return laws;
 }
 
-/// Composing several events.
-template <class Atom>
-struct run_model {
-  using atom_type = Atom;
-  [[nodiscard]] static event<Atom> compose(event<Atom> const& e, event<Atom> const& f) { return rota::compose(e, f); }
-  static result<event<Atom>, no_run<Atom>> compose_run(std::span<event<Atom> const> events) {
-    return rota::compose_run(events);
-  }
-  /// Σ ι(eᵢ).
-  [[nodiscard]] static delta<Atom> sum(std::span<event<Atom> const> events) {
-    delta<Atom> total;
-    for (auto const& e : events) total += delta<Atom>(e);
-    return total;
-  }
-};
-
-/// What the bracketings of e₁∘…∘eₙ come to under M::compose: all Catalan(n − 1) of them, so keep n small. @pre n ≥ 1
-template <class M, class E>
+/// What the bracketings of e₁∘…∘eₙ come to under S: all Catalan(n − 1) of them, so keep n small. @pre n ≥ 1
+template <class S, class E>
 [[nodiscard]] std::vector<E> every_bracketing(std::span<E const> events) {
   if (events.size() == 1) return {events[0]};
   std::vector<E> results;
   for (std::size_t cut = 1; cut < events.size(); ++cut)
-    for (auto const& left : every_bracketing<M, E>(events.first(cut)))
-      for (auto const& right : every_bracketing<M, E>(events.subspan(cut))) results.push_back(M::compose(left, right));
+    for (auto const& left : every_bracketing<S, E>(events.first(cut)))
+      for (auto const& right : every_bracketing<S, E>(events.subspan(cut))) results.push_back(S::combine(left, right));
   return results;
 }
 
 namespace detail {
+
+/// (…(e₁∘e₂)∘…)∘eₙ.
+template <class S, class E>
+[[nodiscard]] E left_fold(std::vector<E> const& run) {
+  E folded = run.front();
+  for (std::size_t i = 1; i < run.size(); ++i) folded = S::combine(folded, run[i]);
+  return folded;
+}
+
+/// `S::compose_run`, or the library's.
+template <class S, class E>
+[[nodiscard]] auto composed_run(std::vector<E> const& events) {
+  if constexpr (requires { S::compose_run(std::span<E const>(events)); })
+    return S::compose_run(std::span<E const>(events));
+  else
+    return rota::compose_run(std::span<E const>(events));
+}
+template <class E, class S>
+concept composes_runs = allocation_event<E> || requires(std::span<E const> events) { S::compose_run(events); };
 
 /// Events that lead from a drawn set on.
 template <class Atom>
@@ -170,6 +176,12 @@ template <class Atom>
     c = d;
   }
   return run;
+}
+template <class E, class S>
+[[nodiscard]] std::vector<E> all_stored(std::vector<typename storage<E, S>::sparse_event> const& events) {
+  std::vector<E> r;
+  for (auto const& e : events) r.push_back(storage<E, S>::stored(e));
+  return r;
 }
 
 /// Whether at each atom the nonzero signs alternate.
@@ -201,54 +213,59 @@ template <class Atom>
 
 }  // namespace detail
 
-/// brackets_do_not_matter, left_fold_is_the_sum, compose_run_is_the_left_fold, compose_run_refuses_the_rest.
-template <class M>
+/// brackets_do_not_matter, left_fold_is_the_sum; and if there is a `compose_run`, compose_run_is_the_left_fold,
+/// compose_run_refuses_the_rest.
+template <class E, class S = structure<E>>
+  requires acts_on_sets<E, S>
 [[nodiscard]] bundle run_laws() {
-  using Atom = typename M::atom_type;
-  using E = event<Atom>;
-  static constexpr auto fold = [](std::vector<E> const& run) {
-    E folded = run.front();
-    for (std::size_t i = 1; i < run.size(); ++i) folded = M::compose(folded, run[i]);
-    return folded;
-  };
+  using as = storage<E, S>;
+  using Atom = typename as::atom_type;
   bundle laws("run");
   laws.add("brackets_do_not_matter", "every bracketing of a run e₁∘…∘eₙ is the same",
            [] {
              auto const run = detail::draw_run<Atom>();
              interesting(detail::comes_and_goes(run), "an atom moves three times");
-             auto const all = every_bracketing<M, E>(run);
-             for (auto const& e : all) same("one bracketing", e, "another", all.front());
+             auto const all = every_bracketing<S, E>(detail::all_stored<E, S>(run));
+             for (auto const& e : all) as::same("one bracketing", e, "another", all.front());
            },
            {{"an atom moves three times"}});
   laws.add("left_fold_is_the_sum", "ι(e₁∘…∘eₙ) = Σ ι(eᵢ), for a run: no clamp is needed", [] {
     auto const run = detail::draw_run<Atom>();
-    same("ι((…(e₁∘e₂)∘…)∘eₙ)", delta<Atom>(fold(run)), "Σ ι(eᵢ)", M::sum(run));
+    delta<Atom> sum;
+    for (auto const& e : run) sum += delta<Atom>(e);
+    auto const folded = detail::left_fold<S>(detail::all_stored<E, S>(run));
+    testing::same("ι((…(e₁∘e₂)∘…)∘eₙ)", delta<Atom>(as::read(folded)), "Σ ι(eᵢ)", sum);
   });
-  laws.add("compose_run_is_the_left_fold", "compose_run(e₁, …, eₙ) = (…(e₁∘e₂)∘…)∘eₙ, for a run", [] {
-    auto const run = detail::draw_run<Atom>();
-    auto const composed = M::compose_run(run);
-    if (!composed) refute("compose_run refuses a run");
-    same("compose_run(e₁, …, eₙ)", *composed, "(…(e₁∘e₂)∘…)∘eₙ", fold(run));
-  });
-  laws.add(
-      "compose_run_refuses_the_rest",
-      "compose_run refuses ⇔ at some atom the nonzero signs do not alternate; it says where",
-      [] {
-        std::vector<E> const events{draw<E>("e₁"), draw<E>("e₂"), draw<E>("e₃")};
-        bool const is_run = detail::alternates(events);
-        interesting(!is_run, "no run");
-        interesting(is_run && !events[0].empty() && !events[1].empty() && !events[2].empty(), "a run of three events");
-        auto const composed = M::compose_run(events);
-        if (is_run) return;  // whether it accepts is the law above
-        if (composed) refute("composed to " + rc::toString(*composed) + " although it is no run");
-        auto const& why = composed.error();
-        holds(why.first < why.second && why.second < events.size(), "the refusal names an earlier and a later event");
-        auto const s = events[why.first](why.witness);
-        holds(s != sign::zero && s == events[why.second](why.witness), "both have the same sign at the witness");
-        for (auto i = why.first + 1; i < why.second; ++i)
-          holds(events[i](why.witness) == sign::zero, "no event between them mentions the witness");
-      },
-      {{"no run"}, {"a run of three events", 5}});
+  if constexpr (detail::composes_runs<E, S>) {
+    laws.add("compose_run_is_the_left_fold", "compose_run(e₁, …, eₙ) = (…(e₁∘e₂)∘…)∘eₙ, for a run", [] {
+      auto const run = detail::all_stored<E, S>(detail::draw_run<Atom>());
+      auto const composed = detail::composed_run<S>(run);
+      if (!composed) refute("compose_run refuses a run");
+      as::same("compose_run(e₁, …, eₙ)", *composed, "(…(e₁∘e₂)∘…)∘eₙ", detail::left_fold<S>(run));
+    });
+    laws.add("compose_run_refuses_the_rest",
+             "compose_run refuses ⇔ at some atom the nonzero signs do not alternate; it says where",
+             [] {
+               using sparse_event = event<Atom>;
+               std::vector<sparse_event> const events{draw<sparse_event>("e₁"), draw<sparse_event>("e₂"),
+                                                      draw<sparse_event>("e₃")};
+               bool const is_run = detail::alternates(events);
+               interesting(!is_run, "no run");
+               interesting(is_run && !events[0].empty() && !events[1].empty() && !events[2].empty(),
+                           "a run of three events");
+               auto const composed = detail::composed_run<S>(detail::all_stored<E, S>(events));
+               if (is_run) return;  // whether it accepts is the law above
+               if (composed) refute("composed to " + rc::toString(as::read(*composed)) + " although it is no run");
+               auto const& why = composed.error();
+               holds(why.first < why.second && why.second < events.size(),
+                     "the refusal names an earlier and a later event");
+               auto const s = events[why.first](why.witness);
+               holds(s != sign::zero && s == events[why.second](why.witness), "both have the same sign at the witness");
+               for (auto i = why.first + 1; i < why.second; ++i)
+                 holds(events[i](why.witness) == sign::zero, "no event between them mentions the witness");
+             },
+             {{"no run"}, {"a run of three events", 5}});
+  }
   return laws;
 }
 

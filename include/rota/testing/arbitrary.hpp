@@ -43,6 +43,12 @@ template <class Atom>
   return sample_atoms<Atom>::nth(i);
 }
 
+/// One of the first six.
+template <class Atom>
+[[nodiscard]] rc::Gen<Atom> an_atom() {
+  return rc::gen::map(integer(0, 5), [](int i) { return nth_atom<Atom>(static_cast<std::size_t>(i)); });
+}
+
 /// The set of the atoms whose entry is `which`.
 template <class Atom>
 [[nodiscard]] constexpr atom_set<Atom> atoms_where(std::vector<int> const& values, int which) {
@@ -100,6 +106,18 @@ struct class_invariant<event<Atom>> {
                        [](auto const& x) { return x.value == sign::plus || x.value == sign::minus; });
   }
 };
+template <atom_universe U>
+struct class_invariant<dense_event<U>> {
+  static bool holds(dense_event<U> const& e) {
+    std::size_t const used = e.universe().size() % 64;
+    for (std::size_t i = 0; i < e.plus().size(); ++i) {
+      auto const either = e.plus()[i] | e.minus()[i];
+      bool const beyond = used != 0 && i + 1 == e.plus().size() && either >> used != 0;
+      if ((e.plus()[i] & e.minus()[i]) != 0 || beyond) return false;
+    }
+    return true;
+  }
+};
 template <ordered_atom Atom, integer_coefficient Coefficient>
 struct class_invariant<delta<Atom, Coefficient>> {
   static bool holds(delta<Atom, Coefficient> const& d) {
@@ -109,11 +127,30 @@ struct class_invariant<delta<Atom, Coefficient>> {
   }
 };
 
+/// c in another storage. @pre all that is drawn is in the universe, if there is one
+template <allocation_set Set>
+[[nodiscard]] constexpr Set stored_as(atom_set<typename event_on<Set>::atom_type> const& c) {
+  Set r;
+  for (auto const& x : c) {
+    (void)r.insert(x);
+    ROTA_ASSERT(r.contains(x));
+  }
+  return r;
+}
+/// And back.
+template <allocation_set Set>
+[[nodiscard]] constexpr auto sparse(Set const& c) {
+  if constexpr (requires { to_sparse(c); })
+    return to_sparse(c);
+  else
+    return c;
+}
+
 /// From C on: to any set.
-template <ordered_atom Atom>
-struct arrows<transition<Atom>> {
-  [[nodiscard]] static rc::Gen<transition<Atom>> from(atom_set<Atom> const& c) {
-    return rc::gen::map(set_beside(c), [c](atom_set<Atom> const& d) { return transition<Atom>(c, d); });
+template <allocation_set Set>
+struct arrows<transition<Set>> {
+  [[nodiscard]] static rc::Gen<transition<Set>> from(Set const& c) {
+    return rc::gen::map(set_beside(sparse(c)), [c](auto const& d) { return transition<Set>(c, stored_as<Set>(d)); });
   }
 };
 
@@ -121,10 +158,7 @@ struct arrows<transition<Atom>> {
 
 template <rota::vocabulary V>
 struct rc::Arbitrary<rota::in<V>> {
-  static Gen<rota::in<V>> arbitrary() {
-    return gen::map(rota::testing::integer(0, 5),
-                    [](int i) { return rota::testing::nth_atom<rota::in<V>>(static_cast<std::size_t>(i)); });
-  }
+  static Gen<rota::in<V>> arbitrary() { return rota::testing::an_atom<rota::in<V>>(); }
 };
 template <rota::ordered_atom Atom>
 struct rc::Arbitrary<rota::atom_set<Atom>> {
@@ -178,13 +212,16 @@ struct rc::Arbitrary<rota::fingerprint> {
   }
 };
 /// Each atom is in neither set, in one, or in both: equal, nested and unrelated sets are all frequent.
-template <rota::ordered_atom Atom>
-struct rc::Arbitrary<rota::transition<Atom>> {
-  static Gen<rota::transition<Atom>> arbitrary() {
-    return rota::testing::made_of<rota::transition<Atom>>(0, 3, [](std::vector<int> const& v) {
-      using rota::testing::atoms_where;
-      auto const both = atoms_where<Atom>(v, 3);
-      return rota::transition<Atom>(unite(atoms_where<Atom>(v, 1), both), unite(atoms_where<Atom>(v, 2), both));
+template <rota::allocation_set Set>
+struct rc::Arbitrary<rota::transition<Set>> {
+  static Gen<rota::transition<Set>> arbitrary() {
+    return rota::testing::made_of<rota::transition<Set>>(0, 3, [](std::vector<int> const& v) {
+      auto const of = [&](int which) {
+        return rota::testing::atoms_where<typename rota::transition<Set>::atom_type>(v, which);
+      };
+      auto const both = of(3);
+      return rota::transition<Set>(rota::testing::stored_as<Set>(unite(of(1), both)),
+                                   rota::testing::stored_as<Set>(unite(of(2), both)));
     });
   }
 };

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <rota/testing/apply_laws.hpp>
 #include <rota/testing/check.hpp>
+#include <rota/testing/cycle_laws.hpp>
 #include <rota/testing/event_laws.hpp>
 #include <rota/testing/groupoid_laws.hpp>
 #include <rota/testing/structure_laws.hpp>
@@ -13,15 +15,23 @@
 
 namespace rota::testing {
 
-/// The laws of the strongest structure that T has and claims; and those of allocation events, if it also has `signs`.
+/// The laws of the strongest structure that T has and claims. If it is an `allocation_event` or its structure has `signs`,
+/// those of allocation events; if these act on sets, those of apply and of runs; if there is an `is_cycle`, those of Def. 5.
 template <class T>
 [[nodiscard]] bundle laws_of() {
-  if constexpr (groupoid<T>)
+  if constexpr (groupoid<T>) {
     return groupoid_laws<T>();
-  else if constexpr (requires(T const& x) { structure<T>::signs(x); })
-    return bundle("allocation_event").merge(structure_laws<T>()).merge(allocation_event_laws<T>());
-  else
+  } else if constexpr (allocation_event<T> || requires(T const& x) { structure<T>::signs(x); }) {
+    auto laws = bundle("allocation_event").merge(structure_laws<T>()).merge(allocation_event_laws<T>());
+    if constexpr (requires { typename structure<T>::set_type; }) {
+      static_assert(acts_on_sets<T, structure<T>>, "a structure with a set_type says how events act on these sets");
+      laws.merge(apply_laws<T>()).merge(apply_theorems<T>()).merge(run_laws<T>());
+    }
+    if constexpr (detail::knows_cycles<T, structure<T>>) laws.merge(cycle_laws<T>()).merge(cycle_theorems<T>());
+    return laws;
+  } else {
     return structure_laws<T>();
+  }
 }
 /// The laws of G acting on X.
 template <class G, class X>

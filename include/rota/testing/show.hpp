@@ -57,6 +57,10 @@ template <ordered_atom Atom>
 void showValue(atom_set<Atom> const& c, std::ostream& out) {
   testing::show_all("{", c, "}", out);
 }
+template <atom_universe U>
+void showValue(dense_atom_set<U> const& c, std::ostream& out) {
+  showValue(to_sparse(c), out);
+}
 /// +In(1, 0, 1)
 template <ordered_atom Atom>
 void showValue(signed_atom<Atom> const& x, std::ostream& out) {
@@ -83,8 +87,8 @@ void showValue(delta<Atom, Coefficient> const& d, std::ostream& out) {
   testing::show_all("(", d, ")", out);
 }
 inline void showValue(fingerprint h, std::ostream& out) { out << h.value; }
-template <ordered_atom Atom>
-void showValue(transition<Atom> const& t, std::ostream& out) {
+template <allocation_set Set>
+void showValue(transition<Set> const& t, std::ostream& out) {
   rc::show(t.source(), out);
   out << " -> ";
   rc::show(t.target(), out);

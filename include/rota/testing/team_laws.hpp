@@ -1,12 +1,11 @@
 #pragma once
 /// @file
-/// The laws of conflict (Def. 2), its witness (Prop. 1), and cycles (Def. 5). The model M names the functions; the
+/// The laws of conflict (Def. 2) and its witness (Prop. 1), and those of cycles. The model M names the functions; the
 /// defaults are the library's own.
 
-#include <rota/algebra/action.hpp>
 #include <rota/team/conflict.hpp>
-#include <rota/team/cycle.hpp>
 #include <rota/testing/arbitrary.hpp>
+#include <rota/testing/cycle_laws.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -186,78 +185,6 @@ template <class M>
     };
     holds(part(cb) != part(believed), "b's next message is an event at the witness");
   });
-  return laws;
-}
-
-template <vocabulary V>
-struct cycle_model {
-  using vocabulary_type = V;
-  [[nodiscard]] static bool is_cycle(event<in<V>> const& e_m, event<in<V>> const& e_r, typename V::agent b) {
-    return rota::is_cycle<V>(e_m, e_r, b);
-  }
-};
-
-/// silent_about_b, empty_message_is_no_event: Def. 5 as printed.
-template <class M>
-[[nodiscard]] bundle cycle_laws() {
-  using V = typename M::vocabulary_type;
-  using E = event<in<V>>;
-  bundle laws("definition_5");
-  laws.add("silent_about_b", "e_m ≠ ∅: a cycle ⇔ e_m∘e_r has no In(b, ·, ·)",
-           [] {
-             auto const b = draw<in<V>>("an atom of b").agent;
-             auto const e_m = draw<E>("e_m");
-             // Often what undoes e_m, at all atoms or at some.
-             std::vector<int> const undo =
-                 *values(-1, 1).as("at the i-th atom e_r: 0 undoes e_m, 1 adds, -1 subtracts");
-             std::vector<int> signs(24);
-             for (std::size_t i = 0; i < signs.size(); ++i)
-               signs[i] = i < undo.size() && undo[i] != 0 ? undo[i] : -to_int(e_m(nth_atom<in<V>>(i)));
-             auto const e_r = event_with<in<V>>(signs);
-             if (e_m.empty()) return;
-             bool silent = true;
-             for (std::size_t i = 0; i < signs.size(); ++i) {
-               auto const x = nth_atom<in<V>>(i);
-               silent &= x.agent != b || to_int(e_m(x)) + signs[i] == 0;
-             }
-             interesting(silent, "silent about b");
-             interesting(!silent, "not silent about b");
-             holds(M::is_cycle(e_m, e_r, b) == silent, "a cycle iff e_m∘e_r is silent about b");
-           },
-           {{"silent about b"}, {"not silent about b"}});
-  laws.add("empty_message_is_no_event", "e_m = ∅ ⇒ no cycle", [] {
-    auto const b = draw<in<V>>("an atom of b").agent;
-    holds(!M::is_cycle({}, draw<E>("e_r"), b), "the empty event starts no cycle");
-  });
-  return laws;
-}
-/// What it means: restores_b_s_part, for e_m applied at C, and e_r right after it.
-template <class M>
-[[nodiscard]] bundle cycle_theorems() {
-  using V = typename M::vocabulary_type;
-  using set = allocation_atoms<V>;
-  bundle laws("definition_5_theorems");
-  laws.add("restores_b_s_part", "for adjacent e_m ≠ ∅ and e_r: a cycle ⇔ b's part of C is restored",
-           [] {
-             auto const x = draw<in<V>>("an atom of b");
-             auto const c = draw<set>("C");
-             auto const goal = *set_beside(c).as("C after the reallocation");
-             auto const part = [b = x.agent](set const& s) {
-               set r;
-               for (auto const& y : s)
-                 if (y.agent == b) r.insert(y);
-               return r;
-             };
-             auto told = unite(subtract(c, part(c)), part(*set_flipped(c).as("C, were the message about all agents")));
-             if (told == c && !told.insert(x)) told.erase(x);  // a message that tells something
-             auto const e_m = difference(c, told);
-             auto const e_r = difference(told, goal);
-             bool const restored = part(c) == part(goal);
-             interesting(restored, "restored");
-             interesting(!restored, "not restored");
-             holds(M::is_cycle(e_m, e_r, x.agent) == restored, "a cycle iff b's part is restored");
-           },
-           {{"restored"}, {"not restored"}});
   return laws;
 }
 
