@@ -7,6 +7,8 @@ compiler_packages=(g++ cmake ninja-build)
 library_packages=(libboost-dev libeigen3-dev nlohmann-json3-dev libpugixml-dev libcli11-dev)
 test_packages=(libgtest-dev librapidcheck-dev z3 libglpk-dev)
 benchmark_packages=(libbenchmark-dev libroaring-dev)
+# Of the allocation search; about 50 MB and 93 packages on a bare machine, most of them what libgecode-dev draws in.
+peer_packages=(liblemon-dev libglpk-dev coinor-libcbc-dev libgecode-dev toulbar2 gringo)
 heavy_packages=(clang-19 libclang-rt-19-dev clang-format-19 git)
 
 say() { printf '\n== %s\n' "$*"; }
@@ -46,16 +48,21 @@ need() {
   rm -f "$log"
 }
 
+# configure PRESET [OPTION...]
+configure() {
+  local preset=$1
+  shift
+  if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}; fi
+  mkdir -p build
+  cmake --preset "$preset" "$@" >"build/$preset.log" 2>&1 ||
+    fail "$(cat "build/$preset.log")" "Configuring failed. If the folder was moved: rm -r build/$preset and try again."
+}
+
 # build PRESET [TARGET...]: configures when there is nothing yet or the presets have changed; the rest ninja knows.
 build() {
   local preset=$1 stamp=build/$1/build.ninja
   shift
-  if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}; fi
-  mkdir -p build
-  if [[ ! -f $stamp || $stamp -ot CMakePresets.json ]]; then
-    cmake --preset "$preset" >"build/$preset.log" 2>&1 ||
-      fail "$(cat "build/$preset.log")" "Configuring failed. If the folder was moved: rm -r build/$preset and try again."
-  fi
+  if [[ ! -f $stamp || $stamp -ot CMakePresets.json ]]; then configure "$preset"; fi
   cmake --build "build/$preset" --parallel "$(nproc)" ${1+--target "$@"} ||
     fail "Building build/$preset failed; the first error above says where."
 }
