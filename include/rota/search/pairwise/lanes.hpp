@@ -46,10 +46,17 @@ struct lane_child {
 
 /// Two agents side by side: a column is a pair of slots, once one way round (first `width` lanes), once the other.
 struct lane_columns {
-  lane const* sums = nullptr;  ///< [2·width]
-  lane const* adds = nullptr;  ///< [slot][2·width]: what an agent in that slot adds
-  std::size_t width = 0;       ///< a multiple of 16
-  std::size_t slots = 0;
+  lane const* sums = nullptr;           ///< [2·width]
+  lane const* adds = nullptr;           ///< [slot][2·width]: what another agent in that slot adds
+  std::int32_t const* values = nullptr; ///< [slot]: what that agent is worth itself, as a loss
+  std::uint32_t const* more = nullptr;  ///< [slot]: the state it leads to, or ~0
+  lane* to = nullptr;                   ///< [state][width]
+  std::size_t apart = 0;                ///< … and so much farther per slot
+  std::size_t width = 0;                ///< a multiple of 16
+  std::size_t slots = 0;                ///< at most 32
+  std::int32_t value = 0;               ///< to be added to all values, which are then divided by 2^coarse, rounded up,
+  std::int32_t floor = 0;               ///< and raised to this
+  unsigned coarse = 0;
 };
 
 /// One agent more to be counted, for many cases at once, one per lane: from counts to counts.
@@ -105,9 +112,15 @@ ROTA_LANES_INLINE void maxima(lane_node const& node, lane_child const* child, st
       auto const pairs = reinterpret_cast<wide>(best);
       total += ((pairs << 16) >> 16) + (pairs >> 16);
     }
-    std::int32_t sum = 0;
-    for (std::size_t i = 0; i < Width / 2; ++i) sum += total[i];
-    sums[c] = sum;
+    if constexpr (Width == 16) total += __builtin_shufflevector(total, total, 4, 5, 6, 7, 0, 1, 2, 3);
+    if constexpr (Width == 16) {
+      total += __builtin_shufflevector(total, total, 2, 3, 0, 1, 6, 7, 4, 5);
+      total += __builtin_shufflevector(total, total, 1, 0, 3, 2, 5, 4, 7, 6);
+    } else {
+      total += __builtin_shufflevector(total, total, 2, 3, 0, 1);
+      total += __builtin_shufflevector(total, total, 1, 0, 3, 2);
+    }
+    sums[c] = total[0];
   }
 }
 
@@ -125,19 +138,29 @@ ROTA_LANES_INLINE void maxima_by_slots(lane_node const& node, lane_child const* 
 }
 
 template <std::size_t Width>
-ROTA_LANES_INLINE void columns(lane_columns const& job, lane const* values, lane* const* to) {
+ROTA_LANES_INLINE void columns(lane_columns const& job) {
   using vector = typename of<Width>::vector;
   using memory = typename of<Width>::memory;
+  lane* to[32];
+  lane const* add[32];
+  lane value[32];
+  std::size_t count = 0;
   for (std::size_t x = 0; x < job.slots; ++x) {
-    if (to[x] == nullptr) continue;
-    lane const* const add = job.adds + x * 2 * job.width;
-    vector const value = vector{} + values[x];
-    for (std::size_t c = 0; c < job.width; c += Width) {
-      vector const one = *reinterpret_cast<memory const*>(job.sums + c) + *reinterpret_cast<memory const*>(add + c);
-      vector const two = *reinterpret_cast<memory const*>(job.sums + job.width + c) +
-                         *reinterpret_cast<memory const*>(add + job.width + c);
-      vector const most = (one > two ? one : two) + value;
-      memory& here = *reinterpret_cast<memory*>(to[x] + c);
+    if (job.more[x] == ~std::uint32_t{0}) continue;
+    to[count] = job.to + x * job.apart + job.more[x] * job.width;
+    add[count] = job.adds + x * 2 * job.width;
+    value[count++] = static_cast<lane>(std::max(-(-(job.value + job.values[x]) >> job.coarse), job.floor));
+  }
+  for (std::size_t c = 0; c < job.width; c += Width) {
+    vector const one = *reinterpret_cast<memory const*>(job.sums + c);
+    vector const two = *reinterpret_cast<memory const*>(job.sums + job.width + c);
+    for (std::size_t i = 0; i < count; ++i) {
+      vector either = *reinterpret_cast<memory const*>(add[i] + c);
+      vector other = *reinterpret_cast<memory const*>(add[i] + job.width + c);
+      either += one;
+      other += two;
+      vector const most = (either > other ? either : other) + value[i];
+      memory& here = *reinterpret_cast<memory*>(to[i] + c);
       here = most > here ? most : here;
     }
   }
@@ -213,15 +236,11 @@ void maxima_portable(lane_node const& node, lane_child const* child, std::size_t
   maxima_by_slots<8, Floored>(node, child, count, sums);
 }
 
-inline void columns_portable(lane_columns const& job, lane const* values, lane* const* to) {
-  columns<8>(job, values, to);
-}
+inline void columns_portable(lane_columns const& job) { columns<8>(job); }
 inline void transport_portable(lane_transport const& job) { transport<8>(job); }
 
 #if ROTA_LANES_AVX2
-[[gnu::target("avx2")]] inline void columns_avx2(lane_columns const& job, lane const* values, lane* const* to) {
-  columns<16>(job, values, to);
-}
+[[gnu::target("avx2")]] inline void columns_avx2(lane_columns const& job) { columns<16>(job); }
 [[gnu::target("avx2")]] inline void transport_avx2(lane_transport const& job) { transport<16>(job); }
 template <bool Floored>
 [[gnu::target("avx2")]] void maxima_avx2(lane_node const& node, lane_child const* child, std::size_t count,
@@ -232,13 +251,17 @@ template <bool Floored>
 
 #else
 
-inline void columns_portable(lane_columns const& job, lane const* values, lane* const* to) {
-  for (std::size_t x = 0; x < job.slots; ++x)
-    for (std::size_t c = 0; c < job.width && to[x] != nullptr; ++c) {
-      lane const* const add = job.adds + x * 2 * job.width + c;
-      int const most = std::max(job.sums[c] + add[0], job.sums[job.width + c] + add[job.width]) + values[x];
-      to[x][c] = std::max(to[x][c], static_cast<lane>(most));
+inline void columns_portable(lane_columns const& job) {
+  for (std::size_t x = 0; x < job.slots; ++x) {
+    if (job.more[x] == ~std::uint32_t{0}) continue;
+    lane* const to = job.to + x * job.apart + job.more[x] * job.width;
+    lane const* const add = job.adds + x * 2 * job.width;
+    int const value = std::max(-(-(job.value + job.values[x]) >> job.coarse), job.floor);
+    for (std::size_t c = 0; c < job.width; ++c) {
+      int const most = std::max(job.sums[c] + add[c], job.sums[job.width + c] + add[job.width + c]) + value;
+      to[c] = std::max(to[c], static_cast<lane>(most));
     }
+  }
 }
 
 inline void transport_portable(lane_transport const& job) {
@@ -348,10 +371,10 @@ inline bool lanes_by_avx2() {
 #endif
 }
 
-/// to[x][c] ← max(to[x][c], max(either way round) + values[x]), for each slot x with a place to[x].
+/// to[more[x]] ← max(itself, max(either way round) + values[x]), by column, for each slot x that leads somewhere.
 ///
 /// @pre no sum leaves the range of a lane
-using columns_kernel = void (*)(lane_columns const&, lane const*, lane* const*);
+using columns_kernel = void (*)(lane_columns const&);
 inline columns_kernel choose_columns_kernel() {
 #if ROTA_LANES_AVX2
   if (lanes_by_avx2()) return &lanes::columns_avx2;

@@ -218,8 +218,6 @@ private:
     }
     settle(2);
     columns_kernel_ = choose_columns_kernel();
-    to_.resize(slots_);
-    values_.resize(slots_);
     std::int32_t most = last_pair_;
     for (std::size_t k = 3; k <= levels; ++k) {
       std::size_t const d = n - k;
@@ -286,15 +284,9 @@ private:
     std::size_t const width = (n - 2 - i) * slots_;
     std::size_t const apart = i == first ? space_.size(n - first - 2) * columns_ : 0;
     lane const* const adds = &adds_[(n - i) * slots_ * 2 * columns_];
-    if (i + 3 == n) {
-      for (std::size_t x = 0; x < slots_; ++x) {
-        std::uint32_t const next = more(i - first, number, x);
-        to_[x] = next == count_space::none ? nullptr : to + x * apart + next * columns_;
-        values_[x] = lost(value + inner[x], value_floor);
-      }
-      columns_kernel_({sums, adds, columns_, slots_}, values_.data(), to_.data());
-      return;
-    }
+    if (i + 3 == n)
+      return columns_kernel_({sums, adds, inner, &more_[(first_state_[i - first] + number) * slots_], to, apart, columns_,
+                              slots_, value, value_floor, coarse_});
     for (std::size_t x = 0; x < slots_; ++x) {
       std::uint32_t const next = more(i - first, number, x);
       if (next == count_space::none) continue;
@@ -449,8 +441,6 @@ private:
   std::vector<std::int32_t> pair_most_;   // [rank, rank]
   std::vector<std::int32_t> share_most_;  // [rank]
   columns_kernel columns_kernel_ = nullptr;
-  std::vector<lane*> to_;
-  std::vector<lane> values_;
   std::vector<lane> sums_;  // [level][either, other][column]
   std::vector<lane> adds_;  // [level][slot][either, other][column]
   std::vector<std::int32_t> inner_;
