@@ -1,0 +1,168 @@
+#pragma once
+
+#include <rota/search/additive.hpp>
+#include <rota/search/pairwise/instance.hpp>
+#include <rota/search/pairwise/local_search.hpp>
+#include <rota/search/pairwise/model.hpp>
+#include <rota/search/pairwise/prices.hpp>
+#include <rota/search/pairwise/search.hpp>
+#include <rota/search/pairwise/small.hpp>
+#include <rota/search/pairwise/suffix.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace rota::dense {
+
+/// Finds the best assignment when utilities come in pairs, exactly; buffers are reused between calls.
+///
+/// Canonical: of all optima the lexicographically smallest vector (agent → slot) is returned, by the caller's numbers.
+/// The same on every machine, compiler and run, and so is every number in the outcome.
+/// Anytime: what a spent budget or `stop` leaves is the best valid assignment seen, and a proven bound.
+///
+/// How: tiny instances are enumerated. Otherwise an assignment is improved by local search (`local_search`); the tables
+/// are reparametrised and rounded up to 16 bits, an agent per lane (`pairwise_model`); the last half of the agents, those
+/// coupled least, are solved for all counts of agents per slot at once (`suffix_bounds`); and depth-first branch and
+/// bound (`pairwise_search`) adds to these what the unplaced get from the placed at best, slots having prices
+/// (`price_table`). Ties are settled only where bounds do not exclude them.
+///
+/// Memory O(n²·m² + states·(m + final counts)), at most some 10 MB for n ≤ 20, m ≤ 8; recursion at most n + m deep.
+class pairwise_solver {
+public:
+  /// How the work is divided. It changes no answer that is complete.
+  pairwise_effort effort;
+
+  /// Searches until the canonical optimum is proved, about `budget` nodes have been tried, or stop() says so, which is
+  /// asked every few thousand nodes. See `no_observer` for what an observer hears.
+  ///
+  /// @return found = false and complete = true iff no assignment is valid
+  /// @pre the preconditions of `pairwise_instance`
+  template <class Stop = never_stop, class Observer = no_observer>
+  pairwise_outcome solve(pairwise_instance const& in, std::uint64_t budget = std::numeric_limits<std::uint64_t>::max(),
+                         Stop stop = {}, Observer observer = {}) {
+    ROTA_ASSERT(in.agents <= max_pairwise_agents && in.slots() <= max_pairwise_slots);
+    pairwise_outcome out;
+    std::size_t const n = in.agents;
+    best_ = {false, detail::pairwise_model::nothing, std::move(best_.assignment)};
+    best_.assignment.assign(n, no_slot);
+    tallies_.assign(n + 1, {});
+    if (n == 0 || in.slots() == 0) return nothing_to_choose(in);
+    if (detail::pairwise_enumeration::suits(n, in.slots(), std::min(effort.enumerate_up_to, budget / 2))) {
+      out.found = small_.solve(in, best_.assignment, out.value, out.nodes, tallies_, observer);
+      return complete(out, out.value);
+    }
+    if (!start(in, budget)) {
+      ++tallies_[0].by_cardinality;
+      if constexpr (!std::is_same_v<Observer, no_observer>)
+        observer(std::span<slot const>(best_.assignment), pairwise_cut::cardinality, detail::pairwise_model::nothing);
+      return complete(out, 0);
+    }
+    bound_suffixes(budget);
+    search_.prepare(model_, suffix_, prices_, lower_, upper_);
+    std::uint64_t const spent = suffix_.work();
+    std::uint64_t const left = budget - std::min(budget, spent);
+    bool const proved = search_.run(best_, left, stop, observer);
+    tallies_.assign(search_.account().begin(), search_.account().end());
+    std::uint64_t const nodes = search_.nodes();
+    bool settled = proved;
+    if (proved && best_.found && search_.tied()) settled = search_.settle(best_, left, stop);
+    out.nodes = spent + search_.nodes();
+    out.tie_nodes = search_.nodes() - nodes;
+    out.found = best_.found;
+    if (proved) {
+      complete(out, best_.value);
+      out.complete = settled;
+      return out;
+    }
+    out.value = out.found ? best_.value : 0;
+    out.bound = std::max(best_.value, search_.open_bound());
+    if (!out.found) best_.assignment.assign(n, no_slot);
+    return out;
+  }
+
+  /// The slot of each agent; `no_slot` if nothing was found.
+  [[nodiscard]] std::span<slot const> assignment() const noexcept { return best_.assignment; }
+  /// What became of all assignments, by the number of agents placed. Ties are settled afterwards, and do not count.
+  [[nodiscard]] std::span<pairwise_tally const> account() const noexcept { return tallies_; }
+
+private:
+  pairwise_outcome complete(pairwise_outcome& out, std::int64_t value) {
+    out.complete = true;
+    out.value = out.found ? value : 0;
+    out.bound = out.found ? value : absent;
+    if (!out.found) std::fill(best_.assignment.begin(), best_.assignment.end(), no_slot);
+    return out;
+  }
+
+  pairwise_outcome nothing_to_choose(pairwise_instance const& in) {
+    pairwise_outcome out;
+    out.found =
+        in.agents == 0 && std::all_of(in.bounds.begin(), in.bounds.end(), [](slot_bounds b) { return b.lower == 0; });
+    if (out.found)
+      ++tallies_[0].leaves;
+    else if (in.agents == 0)
+      ++tallies_[0].by_cardinality;
+    return complete(out, 0);
+  }
+
+  /// A first assignment, made better. @return false if the bounds of the slots cannot be met
+  bool start(pairwise_instance const& in, std::uint64_t budget) {
+    std::size_t const n = in.agents;
+    lower_.resize(in.slots());
+    upper_.resize(in.slots());
+    for (std::size_t s = 0; s < in.slots(); ++s) {
+      lower_[s] = in.bounds[s].lower;
+      upper_[s] = static_cast<std::uint32_t>(std::min<std::size_t>(in.bounds[s].upper, n));
+    }
+    model_.prepare(in);
+    instance const alone{n, model_.centred(), in.bounds};
+    if (additive_.solve(alone).end != additive_end::optimal) return false;
+    std::copy(additive_.assignment().begin(), additive_.assignment().end(), best_.assignment.begin());
+    std::size_t const rounds = static_cast<std::size_t>(std::min<std::uint64_t>(n, budget / n));
+    best_.value = local_.improve(model_, in.bounds, best_.assignment, rounds);
+    best_.found = best_.value > detail::pairwise_model::nothing;
+    if (!best_.found) best_.value = detail::pairwise_model::nothing;
+    sort_twins();
+    return true;
+  }
+
+  /// Interchangeable agents: the smaller number takes the smaller slot.
+  void sort_twins() {
+    std::size_t const n = best_.assignment.size();
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = a + 1; b < n; ++b)
+        if (model_.kind_of(a) == model_.kind_of(b) && best_.assignment[b] < best_.assignment[a])
+          std::swap(best_.assignment[a], best_.assignment[b]);
+  }
+
+  void bound_suffixes(std::uint64_t budget) {
+    using detail::price_table;
+    std::size_t const n = model_.agents();
+    auto plan = detail::suffix_plan::fitting(n, upper_.size(), budget / 4);
+    if (effort.exact_suffix != pairwise_effort::automatic) plan.exact = effort.exact_suffix;
+    if (effort.bounded_suffix != pairwise_effort::automatic) plan.beyond = effort.bounded_suffix;
+    if (upper_.size() > price_table::most_slots || !detail::count_space::fits(upper_.size(), n) ||
+        price_table::number_of_finals(lower_, upper_, n) > price_table::most_finals)
+      plan = {};
+    suffix_.prepare(model_, upper_, plan);
+    if (suffix_.counted(n)) prices_.prepare(model_, suffix_, lower_, upper_);
+  }
+
+  detail::pairwise_best best_;
+  std::vector<pairwise_tally> tallies_;
+  std::vector<std::uint32_t> lower_;
+  std::vector<std::uint32_t> upper_;
+  detail::pairwise_enumeration small_;
+  detail::pairwise_model model_;
+  additive_solver additive_;
+  detail::local_search local_;
+  detail::suffix_bounds suffix_;
+  detail::price_table prices_;
+  detail::pairwise_search search_;
+};
+
+}  // namespace rota::dense

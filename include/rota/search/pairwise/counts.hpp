@@ -1,0 +1,122 @@
+#pragma once
+
+#include <rota/search/instance.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rota::dense::detail {
+
+/// How many agents each slot has, as one word: equal fields, each with a spare top bit for comparing.
+using packed_counts = std::uint64_t;
+
+/// The vectors of counts (c_0 … c_{m−1}) with c_s ≤ upper_s and a sum of at most `most`, numbered within each sum.
+///
+/// Numbers of one sum are 0, 1, …, in lexicographic order. O(m·most²) memory for ranks, O(m) per count vector besides.
+class count_space {
+public:
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  static constexpr std::size_t most_indices = 16384;
+
+  /// Whether the counts of n agents fit into one word.
+  static bool fits(std::size_t slots, std::size_t agents) {
+    return slots * (static_cast<std::size_t>(std::bit_width(agents)) + 1) <= 64;
+  }
+
+  /// @pre fits(upper.size(), agents); most ≤ agents
+  void prepare(std::span<std::uint32_t const> upper, std::size_t agents, std::size_t most) {
+    slots_ = upper.size();
+    most_ = most;
+    field_ = static_cast<unsigned>(std::bit_width(agents)) + 1;
+    guard_ = 0;
+    for (std::size_t s = 0; s < slots_; ++s) guard_ |= unit(s) << (field_ - 1);
+    std::size_t const row = most + 1;
+    std::size_t const loosest = static_cast<std::size_t>(std::max_element(upper.begin(), upper.end()) - upper.begin());
+    weight_.assign(slots_, 0);
+    indices_ = 1;
+    for (std::size_t s = 0; s < slots_; ++s) {
+      if (s == loosest || indices_ > most_indices) continue;
+      weight_[s] = indices_;
+      indices_ *= std::min<std::size_t>(upper[s], most) + 1;
+    }
+    ways_.assign((slots_ + 1) * row, 0);
+    ways_[slots_ * row] = 1;
+    before_.assign(slots_ * row * (row + 1), 0);
+    for (std::size_t s = slots_; s-- > 0;)
+      for (std::size_t r = 0; r <= most; ++r) {
+        std::uint64_t sum = 0;
+        for (std::size_t t = 0; t <= r && t <= upper[s]; ++t) {
+          before_[(s * row + r) * (row + 1) + t] = static_cast<std::uint32_t>(std::min<std::uint64_t>(sum, none));
+          sum += ways_[(s + 1) * row + r - t];
+        }
+        ways_[s * row + r] = static_cast<std::uint32_t>(std::min<std::uint64_t>(sum, none));
+      }
+  }
+
+  /// How many vectors sum up to k.
+  [[nodiscard]] std::size_t size(std::size_t k) const { return ways_[k]; }
+  /// How many vectors the largest of the sums up to k has.
+  [[nodiscard]] std::size_t size_of_largest(std::size_t k) const {
+    return *std::max_element(ways_.begin(), ways_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+  }
+  [[nodiscard]] packed_counts unit(std::size_t s) const { return packed_counts{1} << (field_ * s); }
+  [[nodiscard]] std::size_t count(packed_counts c, std::size_t s) const {
+    return static_cast<std::size_t>(c >> (field_ * s)) & ((std::size_t{1} << (field_ - 1)) - 1);
+  }
+  /// Whether c_s ≤ d_s for every slot.
+  [[nodiscard]] bool below(packed_counts c, packed_counts d) const { return (((d | guard_) - c) & guard_) == guard_; }
+
+  /// The number of a vector among those of sum k. @pre it sums up to k ≤ most and respects the upper bounds
+  [[nodiscard]] std::size_t rank(packed_counts c, std::size_t k) const {
+    std::size_t number = 0;
+    std::size_t const row = most_ + 1;
+    std::size_t const mask = (std::size_t{1} << (field_ - 1)) - 1;
+    std::uint32_t const* table = before_.data();
+    for (std::size_t s = 0; s + 1 < slots_; ++s, table += row * (row + 1), c >>= field_) {
+      std::size_t const here = static_cast<std::size_t>(c) & mask;
+      number += table[k * (row + 1) + here];
+      k -= here;
+    }
+    return number;
+  }
+
+  /// Σ_s c_s·weight_s over all slots but the loosest: tells vectors of one sum apart, and is additive.
+  [[nodiscard]] std::size_t index(packed_counts c) const {
+    std::size_t sum = 0;
+    for (std::size_t s = 0; s < slots_; ++s) sum += count(c, s) * weight_[s];
+    return sum;
+  }
+  /// One more than the greatest index.
+  [[nodiscard]] std::size_t indices() const { return indices_; }
+
+  /// Appends all vectors with lower_s ≤ c_s ≤ upper_s of sum k, in the order of their numbers.
+  void list(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper, std::size_t k,
+            std::vector<packed_counts>& out) const {
+    list(lower, upper, k, 0, 0, out);
+  }
+
+private:
+  void list(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper, std::size_t k, std::size_t s,
+            packed_counts c, std::vector<packed_counts>& out) const {
+    if (s + 1 == slots_) {
+      if (k >= lower[s] && k <= upper[s]) out.push_back(c + unit(s) * k);
+      return;
+    }
+    for (std::size_t t = lower[s]; t <= k && t <= upper[s]; ++t) list(lower, upper, k - t, s + 1, c + unit(s) * t, out);
+  }
+
+  std::size_t slots_ = 0;
+  std::size_t most_ = 0;
+  unsigned field_ = 1;
+  packed_counts guard_ = 0;
+  std::size_t indices_ = 1;
+  std::vector<std::size_t> weight_;
+  std::vector<std::uint32_t> ways_;    // [s, r]: vectors of slots s… that sum up to r
+  std::vector<std::uint32_t> before_;  // [s, r, t]: of these, the ones with c_s < t
+};
+
+}  // namespace rota::dense::detail

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <rota/core/assert.hpp>
+#include <rota/search/pairwise/instance.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace rota::dense::detail {
+
+/// Tries every assignment of a tiny instance, in lexicographic order; so the first best one is the canonical one.
+///
+/// What each agent would get from those placed is kept for all that are not, slot by slot: an assignment costs about one
+/// addition. O(m^n) time, O(n²·m²) memory.
+class pairwise_enumeration {
+public:
+  static constexpr std::size_t most_agents = 8;
+  static constexpr std::size_t most_slots = 8;
+
+  /// Whether it has at most so many assignments, of at most eight agents and slots.
+  static bool suits(std::size_t agents, std::size_t slots, std::uint64_t most) {
+    if (agents > most_agents || slots > most_slots) return false;
+    std::uint64_t all = 1;
+    for (std::size_t i = 0; i < agents; ++i) all *= slots;
+    return all <= most;
+  }
+
+  /// @return whether there is a valid assignment; then `best` is the canonical optimum and `value` its value
+  template <class Observer>
+  bool solve(pairwise_instance const& in, std::span<slot> best, std::int64_t& value, std::uint64_t& nodes,
+             std::span<pairwise_tally> tallies, Observer& observer) {
+    read(in);
+    best_ = forbidden / 2;
+    nodes_ = 0;
+    place(in.bounds, 0, 0, best, tallies, observer);
+    nodes = nodes_;
+    value = best_;
+    return best_ > forbidden / 2;
+  }
+
+private:
+  static constexpr std::int64_t forbidden = -4 * max_pairwise_total;
+
+  void read(pairwise_instance const& in) {
+    ROTA_ASSERT(in.unary.size() == in.agents * in.slots());
+    agents_ = in.agents;
+    slots_ = in.slots();
+    row_ = agents_ * slots_;
+    pairs_.assign(row_ * row_, 0);
+    [[maybe_unused]] std::int64_t total = 0;
+    for (std::size_t i = 0; i < row_; ++i) fields_[0][i] = in.unary[i] == absent ? forbidden : in.unary[i];
+    for (coupling const& c : in.couplings) {
+      ROTA_ASSERT(c.first < agents_ && c.second < agents_ && c.first != c.second);
+      ROTA_ASSERT(c.table.size() == slots_ * slots_);
+      bool const turned = c.first > c.second;
+      std::int64_t* to =
+          &pairs_[(turned ? c.second : c.first) * slots_ * row_ + (turned ? c.first : c.second) * slots_];
+      std::int64_t const* w = c.table.data();
+      std::size_t const step_x = turned ? 1 : row_;
+      std::size_t const step_y = turned ? row_ : 1;
+      for (std::size_t x = 0; x < slots_; ++x)
+        for (std::size_t y = 0; y < slots_; ++y, ++w) to[x * step_x + y * step_y] += *w == absent ? forbidden : *w;
+    }
+    count_.fill(0);
+    missing_ = 0;
+    for (slot_bounds const b : in.bounds) missing_ += b.lower;
+  }
+
+  template <class Observer>
+  void place(std::span<slot_bounds const> bounds, std::size_t d, std::int64_t value, std::span<slot> best,
+             std::span<pairwise_tally> tallies, Observer& observer) {
+    std::int64_t const* const field = fields_[d].data() + d * slots_;
+    for (std::size_t x = 0; x < slots_; ++x) {
+      at_[d] = static_cast<slot>(x);
+      std::uint64_t const missing = missing_ - (count_[x] < bounds[x].lower ? 1 : 0);
+      if (count_[x] >= bounds[x].upper || missing > agents_ - d - 1) {
+        ++tallies[d + 1].by_cardinality;
+        if constexpr (!std::is_same_v<Observer, no_observer>) tell(observer, d + 1);
+        continue;
+      }
+      ++nodes_;
+      std::int64_t const sum = value + field[x];
+      if (d + 1 == agents_) {
+        ++tallies[agents_].leaves;
+        if (sum <= best_) continue;
+        best_ = sum;
+        std::copy_n(at_.begin(), agents_, best.begin());
+        continue;
+      }
+      std::int64_t const* const from = fields_[d].data();
+      std::int64_t const* const add = &pairs_[(d * slots_ + x) * row_];
+      std::int64_t* const to = fields_[d + 1].data();
+      for (std::size_t i = (d + 1) * slots_; i < row_; ++i) to[i] = from[i] + add[i];
+      std::uint64_t const before = missing_;
+      missing_ = missing;
+      ++count_[x];
+      place(bounds, d + 1, sum, best, tallies, observer);
+      --count_[x];
+      missing_ = before;
+    }
+  }
+
+  template <class Observer>
+  void tell(Observer& observer, std::size_t placed) {
+    std::array<slot, most_agents> partial;
+    partial.fill(no_slot);
+    std::copy_n(at_.begin(), placed, partial.begin());
+    observer(std::span<slot const>(partial.data(), agents_), pairwise_cut::cardinality, forbidden);
+  }
+
+  std::size_t agents_ = 0;
+  std::size_t slots_ = 0;
+  std::size_t row_ = 0;
+  std::uint64_t missing_ = 0;
+  std::uint64_t nodes_ = 0;
+  std::int64_t best_ = 0;
+  std::array<slot, most_agents> at_{};
+  std::array<std::uint32_t, most_slots> count_{};
+  std::array<std::array<std::int64_t, most_agents * most_slots>, most_agents> fields_{};  // [depth][agent, slot]
+  std::vector<std::int64_t> pairs_;                                                       // [agent, slot][agent, slot]
+};
+
+}  // namespace rota::dense::detail
