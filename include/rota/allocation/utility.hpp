@@ -27,6 +27,13 @@ struct utility_refusal {
   return quantise(finite ? weight * value : value);
 }
 
+/// total ← total + term; or why not, and total unchanged.
+[[nodiscard]] constexpr utility_fault add(fixed_utility& total,
+                                          result<fixed_utility, utility_fault> const& term) noexcept {
+  if (!term) return term.error();
+  return checked_add(total, term.value()) ? utility_fault::none : utility_fault::out_of_range;
+}
+
 /// One number of the user's, weighed: f() is what the user's function returns.
 template <class F>
 [[nodiscard]] result<fixed_utility, utility_fault> ask(double weight, F&& f) {
@@ -84,10 +91,8 @@ template <vocabulary V, class Beliefs, class Sink>
                                                  allocation_view<V> atoms, Sink&& fault) {
   fixed_utility total;
   bool defined = true;
-  auto add = [&](result<fixed_utility, utility_fault> const& term, std::optional<in<V>> x, std::optional<in<V>> y) {
-    auto const why = !term                              ? term.error()
-                     : checked_add(total, term.value()) ? utility_fault::none
-                                                        : utility_fault::out_of_range;
+  auto count = [&](result<fixed_utility, utility_fault> const& term, std::optional<in<V>> x, std::optional<in<V>> y) {
+    auto const why = add(total, term);
     if (why == utility_fault::none) return;
     defined = false;
     fault(utility_refusal<V>{why, x, y});
@@ -95,14 +100,14 @@ template <vocabulary V, class Beliefs, class Sink>
   for_each_part<V, Beliefs>(p.utility(), [&](double weight, auto const& part) {
     using part_type = std::remove_cvref_t<decltype(part)>;
     if constexpr (std::same_as<part_type, general_utility<V, Beliefs>>) {
-      add(value_of<V, Beliefs>(problem, weight, part, atoms), std::nullopt, std::nullopt);
+      count(value_of<V, Beliefs>(problem, weight, part, atoms), std::nullopt, std::nullopt);
     } else {
-      for (in<V> const& x : atoms) add(term_of<V, Beliefs>(problem, weight, part, x), x, std::nullopt);
+      for (in<V> const& x : atoms) count(term_of<V, Beliefs>(problem, weight, part, x), x, std::nullopt);
     }
     if constexpr (std::same_as<part_type, pairwise_utility<V, Beliefs>>)
       for (in<V> const& x : atoms)
         for (in<V> const& y : atoms)
-          if (y.agent > x.agent) add(term_of<V, Beliefs>(problem, weight, part, x, y), x, y);
+          if (y.agent > x.agent) count(term_of<V, Beliefs>(problem, weight, part, x, y), x, y);
   });
   return defined ? std::optional{total} : std::nullopt;
 }

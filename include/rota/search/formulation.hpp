@@ -28,9 +28,27 @@ public:
   /// False if the plan has no valid allocation for a reason that shows at once: `refusal`.
   bool write() { return write_bounds() && write_utilities(); }
 
+  /// What parts of U_p say of two agents at a time, as tables; what is no utility forbids the combination. False if there are
+  /// too many of them, or too great ones. @pre write()
+  bool write_pairs() {
+    std::size_t const n = problem_.participants.size();
+    std::size_t const slots = plan_.tasks().size() + 1;
+    if (!dense::pair_tables::suit(n, slots)) return false;
+    memory_.pairs.resize(n, slots);
+    bool changed = false;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 1; j < n; ++j)
+        for (std::size_t x = 0; x + 1 < slots; ++x)
+          for (std::size_t y = 0; y + 1 < slots; ++y) changed |= memory_.pairs.put(i, x, j, y, rate(i, x, j, y));
+    if (changed) memory_.settled = false;
+    return memory_.settled || memory_.pairs.finish(memory_.units);
+  }
+
   [[nodiscard]] plan_refusal<V>& refusal() noexcept { return refusal_; }
   /// The first term left out because it is no utility.
   [[nodiscard]] std::optional<utility_refusal<V>> const& ignored() const noexcept { return ignored_; }
+  /// The first combination of two atoms left out for that reason.
+  [[nodiscard]] std::optional<utility_refusal<V>> const& pair_fault() const noexcept { return pair_fault_; }
   /// A change cost in units, nothing where it is out of range.
   [[nodiscard]] std::int64_t change_cost() const noexcept { return cost_; }
 
@@ -96,7 +114,7 @@ private:
       dense::slot_bounds const b{static_cast<std::uint32_t>(lower), static_cast<std::uint32_t>(upper)};
       if (memory_.bounds[s] == b) return;
       memory_.bounds[s] = b;
-      memory_.solved = false;
+      memory_.solved = memory_.settled = false;
     };
     for (std::size_t s = 0; s < tasks.size(); ++s) {
       auto const& b = tasks[s].bounds;
@@ -134,12 +152,12 @@ private:
       std::copy(row_.begin(), row_.end(), old);
       m.changed.push_back(static_cast<dense::row_index>(a));
     }
-    if (!m.changed.empty()) m.seen = m.solved = false;
+    if (!m.changed.empty()) m.seen = m.solved = m.settled = false;
     if (!dense::fits(n, slots, greatest)) {
       refusal_.agent = problem_.participants[greatest_at];
       refusal_.fault = utility_fault::out_of_range;
       refusal_.why = no_plan_reason::utility_refused;
-      m.seen = m.solved = false;
+      m.seen = m.solved = m.settled = false;
       return false;
     }
     break_ties(n, slots, greatest, anew);
@@ -154,7 +172,7 @@ private:
     if (all) {
       m.changed.resize(n);
       for (std::size_t a = 0; a < n; ++a) m.changed[a] = static_cast<dense::row_index>(a);
-      m.seen = m.solved = false;
+      m.seen = m.solved = m.settled = false;
     }
     for (auto const a : m.changed) ties.keys(a, m.units.data() + a * slots, m.keys.data() + a * slots);
   }
@@ -182,6 +200,27 @@ private:
     return greatest;
   }
 
+  [[nodiscard]] in<V> atom(std::size_t a, std::size_t s) const {
+    return {problem_.participants[a], plan_.id(), plan_.tasks()[s].task};
+  }
+
+  /// What all pairwise parts of U_p say about two atoms; 0 where one of them is out of the question.
+  std::int64_t rate(std::size_t i, std::size_t x, std::size_t j, std::size_t y) {
+    std::size_t const slots = plan_.tasks().size() + 1;
+    if (memory_.units[i * slots + x] == dense::absent || memory_.units[j * slots + y] == dense::absent) return 0;
+    auto const one = atom(i, x);
+    auto const other = atom(j, y);
+    fixed_utility total;
+    auto why = utility_fault::none;
+    for_each_part<V, Beliefs>(plan_.utility(), [&](double weight, auto const& part) {
+      if constexpr (std::same_as<std::remove_cvref_t<decltype(part)>, pairwise_utility<V, Beliefs>>)
+        if (why == utility_fault::none) why = add(total, term_of<V, Beliefs>(problem_, weight, part, one, other));
+    });
+    if (why == utility_fault::none) return total.units;
+    if (!pair_fault_) pair_fault_ = utility_refusal<V>{why, one, other};
+    return dense::absent;
+  }
+
   /// What all parts of U_p say about one atom.
   std::optional<std::int64_t> rate(in<V> const& x) {
     if (auto const* alone = std::get_if<additive_utility<V, Beliefs>>(&plan_.utility())) {  // the usual case, at once
@@ -190,23 +229,15 @@ private:
         if (auto const term = quantise(**value)) return term.value().units;
     }
     fixed_utility total;
-    bool counts = true;
+    auto why = utility_fault::none;
     for_each_part<V, Beliefs>(plan_.utility(), [&](double weight, auto const& part) {
-      if (!counts) return;
-      auto const term = term_of<V, Beliefs>(problem_, weight, part, x);
-      auto const why = !term                              ? term.error()
-                       : checked_add(total, term.value()) ? utility_fault::none
-                                                          : utility_fault::out_of_range;
-      if (why == utility_fault::none) return;
-      counts = false;
-      if (why != utility_fault::forbidden_pair && !ignored_) ignored_ = utility_refusal<V>{why, x, std::nullopt};
+      if (why == utility_fault::none) why = add(total, term_of<V, Beliefs>(problem_, weight, part, x));
     });
-    if (!counts) return std::nullopt;
-    if (total.units > most_units || total.units < -most_units) {
-      if (!ignored_) ignored_ = utility_refusal<V>{utility_fault::out_of_range, x, std::nullopt};
-      return std::nullopt;
-    }
-    return total.units;
+    if (why == utility_fault::none && (total.units > most_units || total.units < -most_units))
+      why = utility_fault::out_of_range;
+    if (why == utility_fault::none) return total.units;
+    if (why != utility_fault::forbidden_pair && !ignored_) ignored_ = utility_refusal<V>{why, x, std::nullopt};
+    return std::nullopt;
   }
 
   bool every_task_served(std::size_t n, std::size_t slots) {
@@ -242,6 +273,7 @@ private:
   std::int64_t cost_ = 0;
   plan_refusal<V> refusal_{};
   std::optional<utility_refusal<V>> ignored_{};
+  std::optional<utility_refusal<V>> pair_fault_{};
 };
 
 }  // namespace rota::detail

@@ -16,8 +16,8 @@ namespace rota::detail {
 /// The search for the best allocation of one plan: what is best is U_p less change costs.
 ///
 /// First the additive solver on what parts of U_p say of agents one by one: the optimum where there is nothing else, a proof
-/// that there is no allocation at all, or else prices that bound. Then, if need be, branch and bound. Leaves the
-/// assignment in `workspace::candidate`.
+/// that there is no allocation at all, or else prices that bound. Then the pairwise solver where parts look at two agents,
+/// and none at more; branch and bound for the rest. Leaves the assignment in `workspace::candidate`.
 template <vocabulary V, class Beliefs>
 class plan_search final : private dense::tree_oracle {
 public:
@@ -38,8 +38,8 @@ public:
     precondition_ = p.precondition() && !(running && p.scope() == precondition_scope::entry_only);
     for_each_part<V, Beliefs>(p.utility(), [&](double, auto const& part) {
       using part_type = std::remove_cvref_t<decltype(part)>;
-      coupled_ |=
-          std::same_as<part_type, general_utility<V, Beliefs>> || std::same_as<part_type, pairwise_utility<V, Beliefs>>;
+      general_ |= std::same_as<part_type, general_utility<V, Beliefs>>;
+      pairwise_ |= std::same_as<part_type, pairwise_utility<V, Beliefs>>;
     });
   }
 
@@ -53,7 +53,7 @@ public:
       explain(first);
       return refuse();
     }
-    if (!coupled_) {
+    if (!coupled()) {
       bool const settled = first.end == dense::additive_end::optimal && form_.change_cost() == 0;
       if (settled && units(first.utility) < 0) return negative(units(first.utility));
       auto const assignment = memory_.solver.assignment();
@@ -62,13 +62,16 @@ public:
         return accept(assignment, units(first.utility), units(first.bound));
     } else {
       in.utility = memory_.units;
+      tables_ = pairwise_ && form_.write_pairs();
+      if (auto const together = solve_pairwise(in, budget, done)) return *together;
     }
     return branch(in, first, budget, done);
   }
 
   /// The first thing that is no utility.
   [[nodiscard]] std::optional<utility_refusal<V>> ignored() const {
-    return form_.ignored() ? form_.ignored() : coupling_fault_;
+    if (form_.ignored()) return form_.ignored();
+    return form_.pair_fault() ? form_.pair_fault() : coupling_fault_;
   }
   [[nodiscard]] std::optional<bound_lie<V>> const& lie() const noexcept { return lie_; }
 
@@ -98,6 +101,8 @@ private:
     return out;
   }
 
+  /// Whether some part of U_p looks at more than one agent.
+  [[nodiscard]] bool coupled() const noexcept { return general_ || pairwise_; }
   [[nodiscard]] std::int64_t units(std::int64_t keys) const { return memory_.ties.utility(keys); }
 
   // Change costs --------------------------------------------------------------------------------------------------------
@@ -145,6 +150,51 @@ private:
     }
   }
 
+  // Pairwise ------------------------------------------------------------------------------------------------------------
+
+  /// Nothing where branch and bound has to do it.
+  std::optional<outcome> solve_pairwise(dense::instance const& in, search_budget const& budget, search_work& done) {
+    if (!tables_ || general_ || precondition_ || !in_pairwise_range(in)) return std::nullopt;
+    auto& m = memory_;
+    if (!m.settled) {
+      m.together = work_.pairwise.solve({in.agents, m.units, m.pairs.couplings(), m.bounds}, budget.nodes, budget.stop);
+      auto const placed = work_.pairwise.assignment();
+      m.placed.assign(placed.begin(), placed.end());
+      m.settled = m.together.complete;
+      note_work(done);
+    }
+    auto const& found = m.together;
+    if (found.found && utility_of(m.placed, found.value) >= 0)  // short of proving it canonical, it is not optimal
+      return accept(m.placed, found.value, found.complete ? found.value : std::max(found.bound, found.value + 1));
+    if (found.complete && !found.found) {
+      coupling_fault_ = form_.pair_fault();
+      return coupling_refused();
+    }
+    if (form_.change_cost() == 0 && found.bound < 0) return negative(found.bound);
+    if (found.complete) return std::nullopt;
+    auto out = refuse(no_plan_reason::search_incomplete);
+    out.bound = found.bound;
+    return out;
+  }
+  [[nodiscard]] bool in_pairwise_range(dense::instance const& in) const {
+    auto total = memory_.pairs.magnitude();
+    for (std::size_t a = 0; a < in.agents; ++a) {
+      std::int64_t most = 0;
+      for (std::size_t s = 0; s < in.slots(); ++s)
+        if (in.present(a, s)) most = std::max(most, in.at(a, s) < 0 ? -in.at(a, s) : in.at(a, s));
+      total += static_cast<std::uint64_t>(most);
+      if (total > static_cast<std::uint64_t>(dense::max_pairwise_total)) return false;
+    }
+    return true;
+  }
+  void note_work(search_work& done) const {
+    done.nodes += memory_.together.nodes;
+    for (auto const& t : work_.pairwise.account()) {
+      done.leaves += t.leaves;
+      done.pruned += t.by_bound + t.by_cardinality + t.by_absence + t.by_symmetry;
+    }
+  }
+
   // Branch and bound ----------------------------------------------------------------------------------------------------
 
   outcome branch(dense::instance const& in, dense::additive_outcome const& first, search_budget const& budget,
@@ -153,7 +203,7 @@ private:
     dense::tree_options options;
     options.limit = {budget.nodes, budget.stop};
     options.audit = budget.audit;
-    if (!coupled_ && first.end == dense::additive_end::optimal && form_.change_cost() == 0)
+    if (!coupled() && first.end == dense::additive_end::optimal && form_.change_cost() == 0)
       options.enough = first.utility;
     if (find_twins(in)) options.twin = work_.twin;
     auto const tree = work_.tree.solve(in, *this, options);
@@ -162,7 +212,7 @@ private:
     done.pruned += tree.account.pairs + tree.account.bounded + tree.account.hopeless + tree.account.mirrored;
     if (tree.lie) note_lie(in, *tree.lie);
     bool const proved = tree.complete && !tree.lie;
-    auto const as_units = [&](std::int64_t value) { return coupled_ ? value : units(value); };
+    auto const as_units = [&](std::int64_t value) { return coupled() ? value : units(value); };
     if (tree.found) {
       auto const objective = as_units(tree.value);
       if (utility_of(work_.tree.assignment(), objective) >= 0)
@@ -179,14 +229,15 @@ private:
       return out;
     }
     if (most_negative_) return negative(*most_negative_);
-    if (coupling_fault_) {
-      auto& refusal = form_.refusal();
-      refusal.fault = coupling_fault_->why;
-      if (coupling_fault_->atom)
-        refusal.agent = coupling_fault_->atom->agent, refusal.task = coupling_fault_->atom->task;
-      return refuse(no_plan_reason::utility_refused);
-    }
+    if (coupling_fault_) return coupling_refused();
     return refuse(precondition_threw_ ? no_plan_reason::precondition_threw : no_plan_reason::precondition_never_holds);
+  }
+
+  outcome coupling_refused() {
+    auto& refusal = form_.refusal();
+    refusal.fault = coupling_fault_->why;
+    if (coupling_fault_->atom) refusal.agent = coupling_fault_->atom->agent, refusal.task = coupling_fault_->atom->task;
+    return refuse(no_plan_reason::utility_refused);
   }
 
   allocation_view<V> decode(std::span<dense::slot const> assignment) {
@@ -199,8 +250,8 @@ private:
 
   std::optional<std::int64_t> leaf(std::span<dense::slot const> assignment, std::int64_t sum,
                                    std::optional<std::int64_t> to_beat) override {
-    if (!coupled_ && to_beat && sum <= *to_beat) return std::nullopt;
-    if (!coupled_ && !precondition_ && form_.change_cost() == 0) return sum;
+    if (!coupled() && to_beat && sum <= *to_beat) return std::nullopt;
+    if (!coupled() && !precondition_ && form_.change_cost() == 0) return sum;
     auto const view = decode(assignment);
     if (precondition_) {
       auto const holds = guarded([&] { return plan_.precondition()(problem_.beliefs, view); });
@@ -208,13 +259,13 @@ private:
       if (!holds || !*holds) return std::nullopt;
     }
     auto value = sum;
-    if (coupled_) {
-      auto const whole = couple(view, sum);
+    if (coupled()) {
+      auto const whole = couple(view, assignment, sum);
       if (!whole) return std::nullopt;
       value = *whole;
     }
     if (form_.change_cost() == 0) return value;  // negative totals are judged at the end
-    auto const utility = utility_of(assignment, coupled_ ? value : units(value));
+    auto const utility = utility_of(assignment, coupled() ? value : units(value));
     if (utility >= 0) return value;
     most_negative_ = std::max(most_negative_.value_or(utility), utility);
     return std::nullopt;
@@ -229,25 +280,29 @@ private:
   }
 
   /// The objective, from what it is by agents alone: adds what parts of U_p say of pairs and of the whole.
-  std::optional<std::int64_t> couple(allocation_view<V> view, std::int64_t alone) {
+  std::optional<std::int64_t> couple(allocation_view<V> view, std::span<dense::slot const> assignment,
+                                     std::int64_t alone) {
     fixed_utility total{alone};
     bool counts = true;
-    auto add = [&](result<fixed_utility, utility_fault> const& term, std::optional<in<V>> x, std::optional<in<V>> y) {
-      auto const why = !term                              ? term.error()
-                       : checked_add(total, term.value()) ? utility_fault::none
-                                                          : utility_fault::out_of_range;
+    auto count = [&](result<fixed_utility, utility_fault> const& term, std::optional<in<V>> x, std::optional<in<V>> y) {
+      auto const why = add(total, term);
       if (why == utility_fault::none) return;
       counts = false;
       if (!coupling_fault_) coupling_fault_ = utility_refusal<V>{why, x, y};
     };
+    if (tables_) {
+      auto const together = memory_.pairs.value(assignment);
+      counts = together && checked_add(total, {*together});
+      if (!counts && !coupling_fault_) coupling_fault_ = form_.pair_fault();
+    }
     for_each_part<V, Beliefs>(plan_.utility(), [&](double weight, auto const& part) {
       using part_type = std::remove_cvref_t<decltype(part)>;
       if constexpr (std::same_as<part_type, general_utility<V, Beliefs>>) {
-        if (counts) add(value_of<V, Beliefs>(problem_, weight, part, view), std::nullopt, std::nullopt);
+        if (counts) count(value_of<V, Beliefs>(problem_, weight, part, view), std::nullopt, std::nullopt);
       } else if constexpr (std::same_as<part_type, pairwise_utility<V, Beliefs>>) {
-        for (std::size_t i = 0; i < view.size() && counts; ++i)
+        for (std::size_t i = 0; i < view.size() && counts && !tables_; ++i)
           for (std::size_t j = i + 1; j < view.size() && counts; ++j)
-            add(term_of<V, Beliefs>(problem_, weight, part, view[i], view[j]), view[i], view[j]);
+            count(term_of<V, Beliefs>(problem_, weight, part, view[i], view[j]), view[i], view[j]);
       }
     });
     return counts ? std::optional{total.units} : std::nullopt;
@@ -285,13 +340,17 @@ private:
 
   std::int64_t bound(std::span<dense::slot const> prefix, std::int64_t) override {
     auto const alone = bound_alone(prefix);
-    if (!coupled_) return alone;
+    if (!coupled()) return alone;
     fixed_utility total{units(alone)};
-    bool known = true;
+    bool known = !pairwise_ || tables_;
     bool nothing = false;
+    if (tables_) {
+      auto const together = memory_.pairs.most(prefix);
+      nothing = !together;
+      known = together && checked_add(total, {*together});
+    }
     for_each_part<V, Beliefs>(plan_.utility(), [&](double weight, auto const& part) {
       using part_type = std::remove_cvref_t<decltype(part)>;
-      if constexpr (std::same_as<part_type, pairwise_utility<V, Beliefs>>) known = false;
       if constexpr (std::same_as<part_type, general_utility<V, Beliefs>>) {
         if (!known || weight == 0) return;
         known = weight > 0 && part.bound;
@@ -312,10 +371,9 @@ private:
 
   /// Agents of one kind with equal rows are interchangeable, unless something else could tell them apart.
   bool find_twins(dense::instance const& in) {
-    bool known = coupled_ && !precondition_;
+    bool known = general_ && !pairwise_ && !precondition_;
     for_each_part<V, Beliefs>(plan_.utility(), [&](double, auto const& part) {
       using part_type = std::remove_cvref_t<decltype(part)>;
-      if constexpr (std::same_as<part_type, pairwise_utility<V, Beliefs>>) known = false;
       if constexpr (std::same_as<part_type, general_utility<V, Beliefs>>) known &= static_cast<bool>(part.kind);
     });
     if (!known) return false;
@@ -343,7 +401,7 @@ private:
   }
 
   void note_lie(dense::instance const& in, dense::refuted_bound const& r) {
-    if (!coupled_) return;
+    if (!coupled()) return;
     bound_lie<V> l;
     auto const set = [&](std::span<dense::slot const> assignment) {
       auto const view = decode(assignment);
@@ -364,7 +422,9 @@ private:
   plan_memory& memory_;
   formulation<V, Beliefs> form_;
   bool precondition_ = false;
-  bool coupled_ = false;  // some part of U_p looks at more than one agent
+  bool general_ = false;   // some part of U_p looks at the whole
+  bool pairwise_ = false;  // some part of U_p looks at two agents
+  bool tables_ = false;    // `plan_memory::pairs` says all that the latter do
   std::optional<utility_refusal<V>> coupling_fault_{};
   std::optional<bound_lie<V>> lie_{};
   bool precondition_threw_ = false;

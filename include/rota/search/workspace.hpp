@@ -3,6 +3,8 @@
 #include <rota/search/additive.hpp>
 #include <rota/search/general.hpp>
 #include <rota/search/limits.hpp>
+#include <rota/search/pairwise.hpp>
+#include <rota/search/pairwise/tables.hpp>
 #include <rota/search/ties.hpp>
 
 #include <cstdint>
@@ -21,16 +23,23 @@ struct plan_memory {
   dense::additive_solver solver;
   dense::additive_outcome last;  ///< of the solver, on `keys` and `bounds`
   bool solved = false;           ///< whether it still holds
+
+  dense::pair_tables pairs;          ///< what parts of U_p say of two agents, where they are not too many
+  dense::pairwise_outcome together;  ///< of the pairwise solver, on `units`, `pairs` and `bounds`
+  std::vector<dense::slot> placed;   ///< its assignment
+  bool settled = false;              ///< whether both still hold
 };
 
 /// Buffers that searches reuse, so that a steady loop allocates nothing and begins where it ended. An answer never depends
 /// on it: optima are canonical.
 ///
-/// Grows to O(n·t + t²) integers a plan for the largest problem it met, n agents and t tasks. One per thread.
+/// Grows to O(n·t + t²) integers a plan for the largest problem it met, n agents and t tasks, and O(n²·t²) where utilities
+/// are pairwise. One per thread.
 class workspace {
 public:
   std::vector<plan_memory> plans;  ///< by their order in the plan type
   dense::tree_solver tree;
+  dense::pairwise_solver pairwise;
   std::vector<std::int64_t> row;       ///< one agent's utilities
   std::vector<std::int64_t> most;      ///< what the agents from one on add at most, at the prices of the slots
   std::vector<dense::row_index> twin;  ///< see `dense::tree_options`

@@ -46,16 +46,16 @@ struct lane_child {
 
 /// Two agents side by side: a column is a pair of slots, once one way round (first `width` lanes), once the other.
 struct lane_columns {
-  lane const* sums = nullptr;           ///< [2·width]
-  lane const* adds = nullptr;           ///< [slot][2·width]: what another agent in that slot adds
-  std::int32_t const* values = nullptr; ///< [slot]: what that agent is worth itself, as a loss
-  std::uint32_t const* more = nullptr;  ///< [slot]: the state it leads to, or ~0
-  lane* to = nullptr;                   ///< [state][width]
-  std::size_t apart = 0;                ///< … and so much farther per slot
-  std::size_t width = 0;                ///< a multiple of 16
-  std::size_t slots = 0;                ///< at most 32
-  std::int32_t value = 0;               ///< to be added to all values, which are then divided by 2^coarse, rounded up,
-  std::int32_t floor = 0;               ///< and raised to this
+  lane const* sums = nullptr;            ///< [2·width]
+  lane const* adds = nullptr;            ///< [slot][2·width]: what another agent in that slot adds
+  std::int32_t const* values = nullptr;  ///< [slot]: what that agent is worth itself, as a loss
+  std::uint32_t const* more = nullptr;   ///< [slot]: the state it leads to, or ~0
+  lane* to = nullptr;                    ///< [state][width]
+  std::size_t apart = 0;                 ///< … and so much farther per slot
+  std::size_t width = 0;                 ///< a multiple of 16
+  std::size_t slots = 0;                 ///< at most 32
+  std::int32_t value = 0;                ///< to be added to all values, which are then divided by 2^coarse, rounded up,
+  std::int32_t floor = 0;                ///< and raised to this
   unsigned coarse = 0;
 };
 

@@ -285,8 +285,8 @@ private:
     std::size_t const apart = i == first ? space_.size(n - first - 2) * columns_ : 0;
     lane const* const adds = &adds_[(n - i) * slots_ * 2 * columns_];
     if (i + 3 == n)
-      return columns_kernel_({sums, adds, inner, &more_[(first_state_[i - first] + number) * slots_], to, apart, columns_,
-                              slots_, value, value_floor, coarse_});
+      return columns_kernel_({sums, adds, inner, &more_[(first_state_[i - first] + number) * slots_], to, apart,
+                              columns_, slots_, value, value_floor, coarse_});
     for (std::size_t x = 0; x < slots_; ++x) {
       std::uint32_t const next = more(i - first, number, x);
       if (next == count_space::none) continue;

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <rota/search/pairwise/instance.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace rota::dense {
+
+/// What every two agents are worth together, w_ij(x, y) with i < j: the couplings of an instance, and bounds on their sum.
+///
+/// Write with `resize`, `put` for all pairs, `finish`. Memory O(n²·m²) for n agents and m slots.
+class pair_tables {
+public:
+  [[nodiscard]] static constexpr bool suit(std::size_t agents, std::size_t slots) noexcept {
+    return agents <= max_pairwise_agents && slots <= max_pairwise_slots;
+  }
+
+  /// All 0, unless they have that size already.
+  void resize(std::size_t agents, std::size_t slots) {
+    if (agents_ == agents && slots_ == slots) return;
+    agents_ = agents;
+    slots_ = slots;
+    worth_.assign(agents * (agents - 1) / 2 * slots * slots, 0);
+  }
+  /// w_ij(x, y) ← worth, or `absent` to forbid it. @return whether that is anything new @pre i < j
+  bool put(std::size_t i, std::size_t x, std::size_t j, std::size_t y, std::int64_t worth) {
+    auto& here = worth_[index(i, j) + x * slots_ + y];
+    if (here == worth) return false;
+    here = worth;
+    return true;
+  }
+
+  /// Makes couplings and bounds of what was put. @return false if Σ_{i<j} max|w_ij| exceeds `max_pairwise_total`: then no
+  /// more may be asked @pre `unary` as in `pairwise_instance`
+  bool finish(std::span<std::int64_t const> unary) {
+    if (!find_couplings()) return false;
+    most_.assign(agents_ * slots_ * (agents_ + 1), 0);
+    rest_.assign(agents_ + 1, 0);
+    for (std::size_t i = agents_; i-- > 0;) {
+      rest_[i] = rest_[i + 1];
+      for (std::size_t j = agents_; j-- > i + 1;) {
+        std::int64_t most = forbidden;
+        for (std::size_t x = 0; x < slots_; ++x) {
+          std::int64_t best = forbidden;
+          for (std::size_t y = 0; y < slots_; ++y)
+            if (unary[j * slots_ + y] != absent) best = std::max(best, worth(i, x, j, y));
+          auto* const with = &most_[(i * slots_ + x) * (agents_ + 1)];
+          with[j] = with[j + 1] + best;
+          if (unary[i * slots_ + x] != absent) most = std::max(most, best);
+        }
+        rest_[i] += most;
+      }
+    }
+    return true;
+  }
+
+  /// Σ_{i<j} max|w_ij|.
+  [[nodiscard]] std::uint64_t magnitude() const noexcept { return magnitude_; }
+  [[nodiscard]] std::span<coupling const> couplings() const noexcept { return couplings_; }
+
+  /// Σ_{i<j} w_ij(x_i, x_j) of a complete assignment, or nothing if it holds a forbidden combination. O(n²)
+  [[nodiscard]] std::optional<std::int64_t> value(std::span<slot const> assignment) const {
+    return unless_forbidden(among(assignment));
+  }
+  /// At least the value of every completion of a prefix, or nothing if all are forbidden: each pair at its best. O(n²)
+  [[nodiscard]] std::optional<std::int64_t> most(std::span<slot const> prefix) const {
+    auto const d = prefix.size();
+    auto sum = among(prefix) + rest_[d];
+    for (std::size_t i = 0; i < d; ++i) sum += most_[(i * slots_ + prefix[i]) * (agents_ + 1) + d];
+    return unless_forbidden(sum);
+  }
+
+private:
+  // One of it in a sum, and the sum is below all that are allowed.
+  static constexpr std::int64_t forbidden = -2 * max_pairwise_total;
+
+  static std::optional<std::int64_t> unless_forbidden(std::int64_t sum) {
+    return sum < -max_pairwise_total ? std::nullopt : std::optional{sum};
+  }
+  bool find_couplings() {
+    couplings_.clear();
+    magnitude_ = 0;
+    for (std::size_t i = 0; i < agents_; ++i)
+      for (std::size_t j = i + 1; j < agents_; ++j) {
+        std::span<std::int64_t const> const table{worth_.data() + index(i, j), slots_ * slots_};
+        std::uint64_t greatest = 0;
+        bool forbids = false;
+        for (auto const w : table) {
+          forbids |= w == absent;
+          if (w != absent) greatest = std::max(greatest, static_cast<std::uint64_t>(w < 0 ? -w : w));
+        }
+        if (greatest > static_cast<std::uint64_t>(max_pairwise_total) - magnitude_) return false;
+        magnitude_ += greatest;
+        if (greatest != 0 || forbids)
+          couplings_.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), table});
+      }
+    return true;
+  }
+  [[nodiscard]] std::int64_t worth(std::size_t i, std::size_t x, std::size_t j, std::size_t y) const {
+    auto const w = worth_[index(i, j) + x * slots_ + y];
+    return w == absent ? forbidden : w;
+  }
+  [[nodiscard]] std::int64_t among(std::span<slot const> placed) const {
+    std::int64_t sum = 0;
+    for (std::size_t i = 0; i < placed.size(); ++i)
+      for (std::size_t j = i + 1; j < placed.size(); ++j) sum += worth(i, placed[i], j, placed[j]);
+    return sum;
+  }
+  [[nodiscard]] std::size_t index(std::size_t i, std::size_t j) const {
+    return (i * (2 * agents_ - i - 1) / 2 + j - i - 1) * slots_ * slots_;
+  }
+
+  std::size_t agents_ = 0;
+  std::size_t slots_ = 0;
+  std::uint64_t magnitude_ = 0;
+  std::vector<std::int64_t> worth_;  // [pair of agents, slot, slot]
+  std::vector<std::int64_t> most_;   // [agent, slot, d]: with all agents from d on, at best
+  std::vector<std::int64_t> rest_;   // [d]: all agents from d on among themselves, at best
+  std::vector<coupling> couplings_;
+};
+
+}  // namespace rota::dense
