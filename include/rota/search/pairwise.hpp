@@ -119,7 +119,8 @@ private:
       upper_[s] = static_cast<std::uint32_t>(std::min<std::size_t>(in.bounds[s].upper, n));
     }
     model_.prepare(in);
-    instance const alone{n, model_.centred(), in.bounds};
+    instance alone{n, model_.centred(), in.bounds};
+    alone.unique = true;  // any optimum is a start as good
     if (additive_.solve(alone).end != additive_end::optimal) return false;
     std::copy(additive_.assignment().begin(), additive_.assignment().end(), best_.assignment.begin());
     std::size_t const rounds = static_cast<std::size_t>(std::min<std::uint64_t>(n, budget / n));

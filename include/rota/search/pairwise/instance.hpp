@@ -8,9 +8,9 @@
 
 namespace rota::dense {
 
-/// The greatest Σ_i max|u_i| + Σ_{i<j} max|w_ij| over present entries that the pairwise solver accepts: 2^30 in units of
+/// The greatest Σ_i max|u_i| + Σ_{i<j} max|w_ij| over present entries that the pairwise solver accepts: 2^29 in units of
 /// 2^-20. Every sum of values and of penalties for what is forbidden then fits into 64 bits.
-inline constexpr std::int64_t max_pairwise_total = std::int64_t{1} << 50;
+inline constexpr std::int64_t max_pairwise_total = std::int64_t{1} << 49;
 
 /// The most agents and the most slots the pairwise solver accepts.
 inline constexpr std::size_t max_pairwise_agents = 64;
