@@ -146,18 +146,19 @@ void add_row(std::string const& name, row<Instance> r) {
     added->UseManualTime()->Iterations(static_cast<benchmark::IterationCount>(rotation(r.instances->first())));
 }
 
+template <class Ours, class Instance>
+row<Instance> row_of_ours(std::shared_ptr<family<Instance>> instances) {
+  auto const make = [](Instance const& in) -> std::unique_ptr<peers::peer> { return std::make_unique<Ours>(in); };
+  auto const quick = [](Instance const&) { return peers::effort::quick; };
+  return {std::move(instances), {"rota", make, quick, false}, true};
+}
+
 /// A row for rota, and one for each peer that takes such instances.
 template <class Ours, class Instance>
 void add_rows(std::string const& name, size s, typename family<Instance>::make make) {
   auto const at = '/' + std::to_string(s.agents) + 'x' + std::to_string(s.tasks);
   auto const all = std::make_shared<family<Instance>>(std::move(make));
-  if (Ours::takes(all->first())) {
-    auto const make_ours = [](Instance const& in) -> std::unique_ptr<peers::peer> {
-      return std::make_unique<Ours>(in);
-    };
-    auto const quick = [](Instance const&) { return peers::effort::quick; };
-    add_row(name + at, row<Instance>{all, {"rota", make_ours, quick, false}, true});
-  }
+  add_row(name + at, row_of_ours<Ours>(all));
   for (auto const& peer : peers::all<Instance>()) {
     bool const too_short = peer.process && s.agents < 8;  // what processes state steps by a millisecond
     if (peer.needs(all->first()) == peers::effort::never || too_short) continue;
@@ -195,9 +196,20 @@ void add_additive() {
   rows("additive/congested", huge, [huge](auto seed) { return uniform(huge, congested_bounds(huge), seed); });
   add_reading(huge);
   for (size const s : {size{50, 10}, size{1000, 50}}) {
+    auto const at = '/' + std::to_string(s.agents) + 'x' + std::to_string(s.tasks);
+    auto const alone = [&]<class Ours>(char const* name, auto make) {
+      add_row("allocate/additive/" + (name + at),
+              row_of_ours<Ours>(std::make_shared<family<additive_instance>>(std::move(make))));
+    };
+    auto const congested = [s](auto seed) { return uniform(s, congested_bounds(s), seed); };
+    auto const of_digits = [s](auto seed) { return digits(s, congested_bounds(s), seed); };
+    auto const of_classes = [s](auto seed) { return classes(s, congested_bounds(s), seed, s.agents / 10); };
     rows("additive/contested", s, [s](auto seed) { return contested(s, congested_bounds(s), seed); });
-    rows("additive/digits", s, [s](auto seed) { return digits(s, congested_bounds(s), seed); });
-    rows("additive/classes", s, [s](auto seed) { return classes(s, congested_bounds(s), seed, s.agents / 10); });
+    rows("additive/digits", s, of_digits);
+    rows("additive/classes", s, of_classes);
+    alone.operator()<ours::any_optimum>("congested/ties:any", congested);
+    alone.operator()<ours::keyed>("digits/ties:keyed", of_digits);
+    alone.operator()<ours::keyed>("classes/ties:keyed", of_classes);
   }
   for (std::size_t const robots : {3u, 4u, 5u, 6u})
     rows("additive/attack_play", {robots, 4},

@@ -157,4 +157,20 @@ inline pairwise_instance pairwise_distances(size s, std::uint64_t seed) {
   return in;
 }
 
+/// Agents that are all alike, whoever works together being worth something.
+inline pairwise_instance pairwise_one_class(size s, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  pairwise_instance in(s.agents, roomy_bounds(s));
+  for (std::size_t t = 0; t < s.tasks; ++t) {
+    auto const u = fraction(random);
+    for (std::size_t a = 0; a < s.agents; ++a) in.unary[a * s.tasks + t] = u;
+    for (std::size_t v = 0; v <= t; ++v) {
+      auto const together = fraction(random);
+      for (std::size_t a = 1; a < s.agents; ++a)
+        for (std::size_t b = 0; b < a; ++b) in.pair(a, t, b, v) = in.pair(a, v, b, t) = together;
+    }
+  }
+  return in;
+}
+
 }  // namespace instances

@@ -3,13 +3,12 @@
 #include "peers/pairwise.hpp"
 
 #include <rota/search/additive.hpp>
-#include <rota/search/general.hpp>
+#include <rota/search/pairwise.hpp>
+#include <rota/search/ties.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,55 +41,68 @@ private:
   }
 
   std::vector<rota::dense::slot_bounds> bounds_;
+
+protected:
   rota::dense::instance instance_;
 };
 
-/// The tree search, with what the agents left could earn at best as its bound.
+/// The same, content with any optimum where there are several.
+class any_optimum : public additive {
+public:
+  explicit any_optimum(peers::additive_instance const& in) : additive(in) { instance_.unique = true; }
+};
+
+/// The same on keys that decide ties, which are part of the set-up: how `best_allocation` uses it.
+class keyed : public additive {
+public:
+  explicit keyed(peers::additive_instance const& in) : additive(in), keys_(in.utility.size()) {
+    std::uint64_t greatest = 0;
+    for (auto const u : in.utility)
+      if (u != peers::forbidden) greatest = std::max(greatest, static_cast<std::uint64_t>(u < 0 ? -u : u));
+    rota::dense::tie_rule const ties(in.agents, in.slots(), greatest);
+    for (std::size_t a = 0; a < in.agents; ++a)
+      ties.keys(a, in.utility.data() + a * in.slots(), keys_.data() + a * in.slots());
+    instance_.utility = keys_;
+    instance_.unique = ties.unique();
+  }
+
+private:
+  std::vector<std::int64_t> keys_;
+};
+
+inline std::vector<rota::dense::coupling> couplings_of(peers::pairwise_instance const& in) {
+  std::vector<rota::dense::coupling> all;
+  for (std::uint32_t a = 1; a < in.agents; ++a)
+    for (std::uint32_t b = 0; b < a; ++b)
+      all.push_back({a, b, std::span{in.pairs}.subspan(in.table(a, b), in.slots() * in.slots())});
+  return all;
+}
+
+/// The pairwise solver, whose buffers all instances share as in a steady loop.
 ///
 /// @pre the instance outlives it; `answer` is asked for before another instance is solved
-class pairwise : public peers::peer, private rota::dense::tree_oracle {
+class pairwise : public peers::peer {
 public:
   explicit pairwise(peers::pairwise_instance const& in)
-      : in_(in), bounds_(bounds_of(in.bounds)), instance_{in.agents, in.unary, bounds_}, rest_(in.agents + 1) {
-    for (std::size_t a = in.agents; a-- > 0;) {
-      auto const row = in.unary.begin() + static_cast<std::ptrdiff_t>(a * in.slots());
-      rest_[a] = rest_[a + 1] + *std::max_element(row, row + static_cast<std::ptrdiff_t>(in.slots()));
-      for (std::size_t b = 0; b < a; ++b) {
-        auto const table = in.pairs.begin() + static_cast<std::ptrdiff_t>(in.table(a, b));
-        rest_[a] += *std::max_element(table, table + static_cast<std::ptrdiff_t>(in.slots() * in.slots()));
-      }
-    }
-  }
-  /// Larger ones do not end in a second yet.
-  static bool takes(peers::pairwise_instance const& in) { return in.agents <= 8; }
+      : bounds_(bounds_of(in.bounds)),
+        couplings_(couplings_of(in)),
+        instance_{in.agents, in.unary, couplings_, bounds_} {}
+  static bool takes(peers::pairwise_instance const&) { return true; }
   bool solve() override {
-    auto const out = solver().solve(instance_, *this, std::numeric_limits<std::uint64_t>::max());
+    auto const out = solver().solve(instance_);
     return out.found && out.complete;
   }
   peers::assignment answer() const override { return {solver().assignment().begin(), solver().assignment().end()}; }
 
 private:
-  using prefix = std::span<rota::dense::slot const>;
-
-  static rota::dense::tree_solver& solver() {
-    static rota::dense::tree_solver one;
+  static rota::dense::pairwise_solver& solver() {
+    static rota::dense::pairwise_solver one;
     return one;
   }
-  std::int64_t together(prefix p) const {
-    std::int64_t sum = 0;
-    for (std::size_t a = 1; a < p.size(); ++a)
-      for (std::size_t b = 0; b < a; ++b) sum += in_.pair(a, p[a], b, p[b]);
-    return sum;
-  }
-  std::optional<std::int64_t> leaf(prefix all, std::int64_t sum, std::optional<std::int64_t>) override {
-    return sum + together(all);
-  }
-  std::optional<std::int64_t> bound(prefix p, std::int64_t sum) override { return sum + together(p) + rest_[p.size()]; }
 
-  peers::pairwise_instance const& in_;
   std::vector<rota::dense::slot_bounds> bounds_;
-  rota::dense::instance instance_;
-  std::vector<std::int64_t> rest_;  // what the agents from one on earn at most, alone and with those before them
+  std::vector<rota::dense::coupling> couplings_;
+  rota::dense::pairwise_instance instance_;
 };
 
 }  // namespace ours

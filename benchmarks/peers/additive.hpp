@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -12,7 +11,7 @@
 namespace peers {
 
 /// Marks a pair that does not exist.
-inline constexpr std::int64_t forbidden = std::numeric_limits<std::int64_t>::min();
+inline constexpr std::int64_t forbidden = -(std::int64_t{1} << 62);
 
 /// How many agents each slot must and can take.
 struct cardinalities {

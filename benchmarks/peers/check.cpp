@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
     }
     for (std::size_t robots = 3; robots <= 6; ++robots)
       additive("AttackPlay", uniform({robots, 4}, attack_play(robots), seed));
-    for (size const s : {size{2, 2}, size{5, 3}, size{7, 4}}) {
+    for (size const s : {size{2, 2}, size{5, 3}, size{7, 4}, size{9, 3}}) {
       auto pairwise = [&](char const* family, peers::pairwise_instance const& in) {
         compare<ours::pairwise>(std::string(family) + " seed " + std::to_string(seed), in);
       };

@@ -118,7 +118,7 @@ private:
       lower_[s] = in.bounds[s].lower;
       upper_[s] = static_cast<std::uint32_t>(std::min<std::size_t>(in.bounds[s].upper, n));
     }
-    model_.prepare(in);
+    model_.prepare(in, effort.symmetry);
     instance alone{n, model_.centred(), in.bounds};
     alone.unique = true;  // any optimum is a start as good
     if (additive_.solve(alone).end != additive_end::optimal) return false;

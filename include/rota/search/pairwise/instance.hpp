@@ -61,6 +61,8 @@ struct pairwise_effort {
   std::size_t exact_suffix = automatic;
   /// So many agents more are bounded from there.
   std::size_t bounded_suffix = automatic;
+  /// Whether interchangeable agents are looked for, and tried in one order only.
+  bool symmetry = true;
 };
 
 /// What a pairwise search found.

@@ -29,9 +29,9 @@ public:
   /// Prices of slots stay within this magnitude, so that a field less a price is a lane.
   static constexpr std::int32_t most_price = 8192;
 
-  void prepare(pairwise_instance const& in) {
+  void prepare(pairwise_instance const& in, bool symmetry) {
     read(in);
-    find_kinds(in);
+    find_kinds(symmetry);
     center();
     rank_agents();
     quantise();
@@ -182,11 +182,11 @@ private:
   }
 
   /// kind_[a] ← the first agent that a can be exchanged with, which is an equivalence.
-  void find_kinds(pairwise_instance const& in) {
-    kind_.resize(in.agents);
+  void find_kinds(bool symmetry) {
+    kind_.resize(agents_);
     for (std::size_t a = 0; a < agents_; ++a) {
       kind_[a] = static_cast<std::uint32_t>(a);
-      for (std::size_t b = 0; b < a; ++b)
+      for (std::size_t b = 0; b < a && symmetry; ++b)
         if (kind_[b] == b && interchangeable(b, a)) {
           kind_[a] = static_cast<std::uint32_t>(b);
           break;

@@ -1,0 +1,96 @@
+// What pairwise utilities cost rota beyond the rows beside peers: how many instances are proved within one tick, and what
+// symmetry saves.
+//
+// `proved` counts seeds whose optimum is proved in 30 ms each, by the clock; `nodes` are placements tried per instance.
+
+#include "instances.hpp"
+#include "ours.hpp"
+#include "support.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace {
+
+using instances::size;
+using clock_type = std::chrono::steady_clock;
+
+/// An instance with views of its own numbers.
+struct problem {
+  peers::pairwise_instance numbers;
+  std::vector<rota::dense::slot_bounds> bounds = ours::bounds_of(numbers.bounds);
+  std::vector<rota::dense::coupling> couplings = ours::couplings_of(numbers);
+
+  rota::dense::pairwise_instance view() const { return {numbers.agents, numbers.unary, couplings, bounds}; }
+};
+
+using make = peers::pairwise_instance (*)(size, std::uint64_t);
+
+void count(benchmark::State& state, double proved, double nodes) {
+  state.counters["proved"] = proved;
+  state.counters["nodes"] = nodes;
+}
+
+void within_a_tick(benchmark::State& state, size s, make family) {
+  constexpr std::uint64_t seeds = 30;
+  rota::dense::pairwise_solver solver;
+  double proved = 0;
+  double nodes = 0;
+  for (auto _ : state) {
+    proved = nodes = 0;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+      state.PauseTiming();
+      problem const p{family(s, seed)};
+      state.ResumeTiming();
+      auto const end = clock_type::now() + std::chrono::milliseconds{30};
+      auto const out = solver.solve(p.view(), ~std::uint64_t{0}, [end] { return clock_type::now() >= end; });
+      check(out.found && out.value <= out.bound, "a valid assignment and a bound");
+      proved += out.complete && clock_type::now() <= end ? 1 : 0;
+      nodes += static_cast<double>(out.nodes) / static_cast<double>(seeds);
+    }
+  }
+  count(state, proved, nodes);
+}
+
+void one_class(benchmark::State& state, size s, bool symmetry) {
+  rota::dense::pairwise_solver solver;
+  solver.effort.symmetry = symmetry;
+  std::vector<problem> all;
+  double nodes = 0;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    all.push_back({instances::pairwise_one_class(s, seed)});
+    auto const out = solver.solve(all.back().view());
+    check(out.complete, "the optimum");
+    rota::dense::pairwise_solver other;
+    other.effort.symmetry = !symmetry;
+    check(other.solve(all.back().view()).value == out.value, "the same with and without symmetry");
+    nodes += static_cast<double>(out.nodes) / 4;
+  }
+  rotate(state, all, [&](problem const& p) { return solver.solve(p.view()).value; });
+  count(state, 0, nodes);
+}
+
+void add(std::string const& family, make f) {
+  for (size const s : {size{15, 5}, size{20, 5}})
+    benchmark::RegisterBenchmark(
+        ("allocate/pairwise/" + family + "/seeds:30/" + std::to_string(s.agents) + 'x' + std::to_string(s.tasks))
+            .c_str(),
+        [s, f](benchmark::State& state) { within_a_tick(state, s, f); })
+        ->Iterations(1);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  add("uniform", instances::pairwise_uniform);
+  add("distances", instances::pairwise_distances);
+  for (bool const symmetry : {true, false})
+    benchmark::RegisterBenchmark(symmetry ? "allocate/pairwise/one_class/10x5"
+                                          : "allocate/pairwise/one_class/symmetry:off/10x5",
+                                 [symmetry](benchmark::State& state) { one_class(state, {10, 5}, symmetry); });
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+}
