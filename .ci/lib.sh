@@ -9,7 +9,7 @@ test_packages=(libgtest-dev librapidcheck-dev z3 libglpk-dev)
 benchmark_packages=(libbenchmark-dev libroaring-dev)
 # Of the allocation search; about 50 MB and 93 packages on a bare machine, most of them what libgecode-dev draws in.
 peer_packages=(liblemon-dev libglpk-dev coinor-libcbc-dev libgecode-dev toulbar2 gringo)
-heavy_packages=(clang-19 libclang-rt-19-dev clang-format-19 git)
+heavy_packages=(clang-19 libclang-rt-19-dev clang-format-19 clang-tidy-19 git)
 
 say() { printf '\n== %s\n' "$*"; }
 fail() { printf '%s\n' "$@" >&2; exit 2; }

@@ -53,7 +53,6 @@ private:
     slots_ = in.slots();
     row_ = agents_ * slots_;
     pairs_.assign(row_ * row_, 0);
-    [[maybe_unused]] std::int64_t total = 0;
     for (std::size_t i = 0; i < row_; ++i) fields_[0][i] = in.unary[i] == absent ? forbidden : in.unary[i];
     for (coupling const& c : in.couplings) {
       ROTA_ASSERT(c.first < agents_ && c.second < agents_ && c.first != c.second);
