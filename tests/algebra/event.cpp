@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdio>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -281,6 +282,16 @@ TEST(event, associativity_fails_for_most_unrestricted_triples) {
 
 // Any ordered atom, any time ------------------------------------------------------------------------------------------
 
+/// An order without <=>, as types had it before C++20.
+struct old_style {
+  int value = 0;
+  friend constexpr bool operator==(old_style a, old_style b) { return a.value == b.value; }
+  friend constexpr bool operator<(old_style a, old_style b) { return a.value < b.value; }
+  friend constexpr bool operator>(old_style a, old_style b) { return b < a; }
+  friend constexpr bool operator<=(old_style a, old_style b) { return !(b < a); }
+  friend constexpr bool operator>=(old_style a, old_style b) { return !(a < b); }
+};
+
 namespace {
 
 constexpr bool algebra_at_compile_time() {
@@ -298,6 +309,9 @@ static_assert(algebra_at_compile_time());
 static_assert(rota::ordered_atom<int> && rota::ordered_atom<std::string> && rota::ordered_atom<atom>);
 static_assert(rota::ordered_atom<atom_set> && rota::ordered_atom<event>, "sets and events can be atoms themselves");
 static_assert(!rota::ordered_atom<double>, "NaN makes the order partial");
+static_assert(!rota::ordered_atom<std::optional<double>> && !rota::ordered_atom<std::pair<int, float>>, "as here");
+constexpr auto old_style_event = rota::event<old_style>::make({old_style{1}}, {old_style{2}}).value();
+static_assert(compose(old_style_event, inverse(old_style_event)).empty());
 static_assert(!std::convertible_to<atom_set, event> && !std::constructible_from<event, atom_set>);
 
 template <class E>
