@@ -5,6 +5,8 @@
 #include "support/allocation_counter.hpp"
 
 #include <rota/algebra/associativity.hpp>
+#include <rota/algebra/fingerprint.hpp>
+#include <rota/algebra/transition.hpp>
 
 #include <algorithm>
 #include <array>
@@ -205,6 +207,26 @@ TEST(event, up_to_eight_entries_compose_without_the_heap) {
   auto const r = compose(e, f);
   auto const allocations = rota_test::allocation_count() - before;
   EXPECT_EQ(r.size(), 6u);
+  EXPECT_EQ(allocations, 0u);
+}
+
+TEST(event, whatever_is_done_to_up_to_eight_entries_allocates_nothing) {
+  atom_set c, d;
+  for (std::size_t i = 0; i < 4; ++i) {
+    c.insert(nth(i));
+    d.insert(nth(i + 2));
+  }
+  auto const before = rota_test::allocation_count();
+  auto const e = rota::difference(c, d);
+  auto const back = inverse(e);
+  bool const right = *rota::apply(e, c) == d && !rota::apply(back, c) && rota::applicable(back, d) &&
+                     compose(e, back).empty() && *event::make(e.additions(), e.subtractions()) == e &&
+                     associates(e, back, e) && non_associating_atoms(e, e, back).size() == 4 &&
+                     (delta(e) + delta(back)).empty() && clamp(2 * delta(e)) == e && delta(c) + delta(e) == delta(d) &&
+                     fingerprint_of(c) + fingerprint_of(e) == fingerprint_of(d) &&
+                     compose(rota::transition{c, d}, rota::transition{d, c}).target() == c;
+  auto const allocations = rota_test::allocation_count() - before;
+  EXPECT_TRUE(right);
   EXPECT_EQ(allocations, 0u);
 }
 

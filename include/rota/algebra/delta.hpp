@@ -92,7 +92,7 @@ constexpr bool multiply(N const& n, T const& b, T& out) {
 ///
 /// Laws: abelian group under `+` with identity `{}`; ℤ-module under `*`. @pre of `+`, `−`, `*`: no coefficient of the result
 /// overflows; `checked_sum`, `checked_difference`, `checked_negation` and `checked_product` refuse instead. Sums take
-/// O(|d| + |e|).
+/// O(|d| + |e|), and no allocation where that is at most eight.
 template <ordered_atom Atom, integer_coefficient Coefficient = std::int64_t>
 class delta {
 public:
