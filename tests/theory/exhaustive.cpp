@@ -630,6 +630,23 @@ TEST(cycle, restores_the_part_of_b) {
     }
 }
 
+TEST(cycle, entails_a_conflict_only_while_b_stands_by_its_message) {
+  law stands("a cycle, and b's part of C_b is still what it told ⇒ a and b are in conflict");
+  law moved("a cycle, and C_b is by now what a believes ⇒ they are not");
+  auto const all = beliefs(2);
+  auto const b = static_cast<names::agent>(1);
+  for (auto const& before : all)
+    for (auto const& told : all)
+      for (auto const& after : all) {
+        if (part(told, names::agent{}) != part(before, names::agent{})) continue;  // b speaks for itself
+        if (!is_cycle(difference(before, told), difference(told, after), b)) continue;
+        allocation const believed{names::plan_type::ours, after};
+        moved(!in_conflict(believed, allocation{names::plan_type::ours, after}));
+        for (auto const& own : all)
+          if (part(own, b) == part(told, b)) stands(in_conflict(believed, allocation{names::plan_type::ours, own}));
+      }
+}
+
 // The same functions on operands of every size -------------------------------------------------------------------------------
 
 /// A fixed sequence of random words.
