@@ -1,7 +1,8 @@
 ; Let e_m lead from C to C₁ and e_r from C₁ to C₂. Then e_m∘e_r mentions no In(b, ·, ·) iff b's part of C₂ is b's part of C.
 ; Paper: Def. 5 and "a cycle occurs, if an agent reverts its allocation with respect to a message by reallocation".
 ; Theory: docs/algebra.md, Conflict, Proposition 1, cycle.
-; Code: is_cycle. Tests: cycle.definition_5_theorems.restores_b_s_part, cycle.definition_5.empty_message_is_no_event.
+; Code: is_cycle. Tests: cycle.definition_5_theorems.restores_b_s_part, cycle.definition_5.empty_message_is_no_event,
+; cycle.entails_a_conflict_only_while_b_stands_by_its_message.
 
 (declare-sort Agent 0)
 (declare-fun agent (Atom) Agent)
@@ -78,6 +79,33 @@
 (assert (silent_about_b (compose em er)))
 (assert (not restored))
 (echo "refuted: a cycle restores b's part also if e_r is not applied to C₁")
+(set-info :status sat)
+(check-sat)
+(pop)
+
+; What the cycle leaves behind: own is b's own allocation.
+(declare-const own Atoms)
+(push)
+(assert (leads em c c1))
+(assert (leads er c1 c2))
+(assert (about_b em))
+(assert (not (= em nothing)))
+(assert (silent_about_b (compose em er)))
+(assert (= (intersect own of_b) (intersect c1 of_b)))
+(assert (= own c2))
+(echo "proved: after a cycle the receiver and b are in conflict, as long as b stands by what it told")
+(set-info :status unsat)
+(check-sat)
+(pop)
+
+(push)
+(assert (leads em c c1))
+(assert (leads er c1 c2))
+(assert (about_b em))
+(assert (not (= em nothing)))
+(assert (silent_about_b (compose em er)))
+(assert (= own c2))
+(echo "refuted: after a cycle they are in conflict whatever b does meanwhile")
 (set-info :status sat)
 (check-sat)
 (pop)

@@ -279,6 +279,15 @@ TEST(delta, checked_operations_at_the_limits_of_64_bits) {
   EXPECT_TRUE(refuses(checked_product(std::int64_t{1} << 32, at(std::int64_t{1} << 31)))) << "2^63 is one too many";
 }
 
+TEST(delta, a_multiplier_is_never_cut_to_the_size_of_a_coefficient) {
+  EXPECT_EQ(checked_product(257, small_at(1)).error().witness, nth(1)) << "cut to eight bits it would be 1";
+  EXPECT_EQ(*checked_product(128, small_at(-1)), small_at(-128)) << "128 is no coefficient, the product is one";
+  EXPECT_EQ(*checked_product(256, small_delta{}), small_delta{});
+  EXPECT_FALSE(checked_product(std::uint64_t{1} << 63, delta(nth(1), 1)).has_value());
+  EXPECT_EQ(*checked_product(std::uint64_t{1} << 63, delta(nth(1), -1)),
+            delta(nth(1), std::numeric_limits<std::int64_t>::min()));
+}
+
 RC_GTEST_PROP(delta, checked_operations_are_exact_or_name_the_least_overflow, ()) {
   auto const n = *atom_count().as("atoms");
   auto const a = *values(n, -127, 127).as("d");
@@ -346,6 +355,9 @@ namespace {
 static_assert(rota::integer_coefficient<std::int64_t> && rota::integer_coefficient<wide>);
 static_assert(!rota::integer_coefficient<unsigned> && !rota::integer_coefficient<bool>, "they hold no -1");
 static_assert(!rota::integer_coefficient<double>, "its sums depend on the brackets");
+template <class D>
+concept has_fractions = requires(D const& d) { 0.5 * d; } || requires(D const& d) { d * 0.5f; };
+static_assert(!has_fractions<delta> && !has_fractions<rota::delta<atom, wide>>, "half an atom is none");
 static_assert(!std::convertible_to<event, delta> && std::constructible_from<delta, event>,
               "the embedding is no homomorphism, so it is spelt out");
 

@@ -5,11 +5,14 @@
 #include "support/allocation_counter.hpp"
 
 #include <rota/algebra/associativity.hpp>
+#include <rota/algebra/fingerprint.hpp>
+#include <rota/algebra/transition.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -207,6 +210,26 @@ TEST(event, up_to_eight_entries_compose_without_the_heap) {
   EXPECT_EQ(allocations, 0u);
 }
 
+TEST(event, whatever_is_done_to_up_to_eight_entries_allocates_nothing) {
+  atom_set c, d;
+  for (std::size_t i = 0; i < 4; ++i) {
+    c.insert(nth(i));
+    d.insert(nth(i + 2));
+  }
+  auto const before = rota_test::allocation_count();
+  auto const e = rota::difference(c, d);
+  auto const back = inverse(e);
+  bool const right = *rota::apply(e, c) == d && !rota::apply(back, c) && rota::applicable(back, d) &&
+                     compose(e, back).empty() && *event::make(e.additions(), e.subtractions()) == e &&
+                     associates(e, back, e) && non_associating_atoms(e, e, back).size() == 4 &&
+                     (delta(e) + delta(back)).empty() && clamp(2 * delta(e)) == e && delta(c) + delta(e) == delta(d) &&
+                     fingerprint_of(c) + fingerprint_of(e) == fingerprint_of(d) &&
+                     compose(rota::transition{c, d}, rota::transition{d, c}).target() == c;
+  auto const allocations = rota_test::allocation_count() - before;
+  EXPECT_TRUE(right);
+  EXPECT_EQ(allocations, 0u);
+}
+
 RC_GTEST_PROP(event, compose_and_inverse_are_pointwise, ()) {
   auto const n = *atom_count().as("atoms");
   auto const e = *event_over(n).as("e");
@@ -281,6 +304,16 @@ TEST(event, associativity_fails_for_most_unrestricted_triples) {
 
 // Any ordered atom, any time ------------------------------------------------------------------------------------------
 
+/// An order without <=>, as types had it before C++20.
+struct old_style {
+  int value = 0;
+  friend constexpr bool operator==(old_style a, old_style b) { return a.value == b.value; }
+  friend constexpr bool operator<(old_style a, old_style b) { return a.value < b.value; }
+  friend constexpr bool operator>(old_style a, old_style b) { return b < a; }
+  friend constexpr bool operator<=(old_style a, old_style b) { return !(b < a); }
+  friend constexpr bool operator>=(old_style a, old_style b) { return !(a < b); }
+};
+
 namespace {
 
 constexpr bool algebra_at_compile_time() {
@@ -298,6 +331,9 @@ static_assert(algebra_at_compile_time());
 static_assert(rota::ordered_atom<int> && rota::ordered_atom<std::string> && rota::ordered_atom<atom>);
 static_assert(rota::ordered_atom<atom_set> && rota::ordered_atom<event>, "sets and events can be atoms themselves");
 static_assert(!rota::ordered_atom<double>, "NaN makes the order partial");
+static_assert(!rota::ordered_atom<std::optional<double>> && !rota::ordered_atom<std::pair<int, float>>, "as here");
+constexpr auto old_style_event = rota::event<old_style>::make({old_style{1}}, {old_style{2}}).value();
+static_assert(compose(old_style_event, inverse(old_style_event)).empty());
 static_assert(!std::convertible_to<atom_set, event> && !std::constructible_from<event, atom_set>);
 
 template <class E>

@@ -36,6 +36,73 @@ static_assert(!rota::group_action<event, atom_set> && !rota::group_action<event,
 // Nothing has a structure that nobody gave it.
 static_assert(!rota::magma<int> && !rota::magma<std::string> && !rota::magma<atom_set>);
 
+}  // namespace
+
+// Each concept beside its neighbours: who has less is refused.
+struct text {
+  std::string value;
+  friend bool operator==(text const&, text const&) = default;
+};
+struct greatest {
+  int value = 0;
+  friend bool operator==(greatest, greatest) = default;
+};
+struct mean {
+  double value = 0;
+  friend bool operator==(mean, mean) = default;
+};
+struct turn {  // of three things, either way round, or a swap
+  int rotation = 0;
+  bool swap = false;
+  friend bool operator==(turn, turn) = default;
+};
+
+}  // namespace structures_test
+
+/// Concatenation.
+template <>
+struct rota::structure<structures_test::text> {
+  using T = structures_test::text;
+  static T combine(T const& x, T const& y) { return {x.value + y.value}; }
+  static T identity() { return {}; }
+  static constexpr bool associative = true;
+};
+/// Without a least number, no identity.
+template <>
+struct rota::structure<structures_test::greatest> {
+  using T = structures_test::greatest;
+  static T combine(T x, T y) { return x.value < y.value ? y : x; }
+  static constexpr bool associative = true;
+  static constexpr bool commutative = true;
+};
+/// Commutes, and brackets matter.
+template <>
+struct rota::structure<structures_test::mean> {
+  using T = structures_test::mean;
+  static T combine(T x, T y) { return {(x.value + y.value) / 2}; }
+  static constexpr bool associative = false;
+  static constexpr bool commutative = true;
+};
+/// The symmetries of a triangle.
+template <>
+struct rota::structure<structures_test::turn> {
+  using T = structures_test::turn;
+  static T combine(T x, T y) { return {(x.rotation + (x.swap ? 3 - y.rotation : y.rotation)) % 3, x.swap != y.swap}; }
+  static T identity() { return {}; }
+  static T inverse(T x) { return {x.swap ? x.rotation : (3 - x.rotation) % 3, x.swap}; }
+  static constexpr bool associative = true;
+};
+
+namespace structures_test {
+
+namespace {
+
+static_assert(rota::monoid<text> && !rota::invertible_magma<text> && !rota::commutative_magma<text>);
+static_assert(rota::commutative_magma<greatest> && !rota::unital_magma<greatest> && !rota::monoid<greatest>);
+static_assert(rota::magma<mean> && !rota::unital_magma<mean> && !rota::monoid<mean>);
+static_assert(rota::group<turn> && !rota::abelian_group<turn> && !rota::groupoid<turn>);
+static_assert(!rota::group_action<turn, int> && !rota::group_action<text, text>);
+
 // What stands for integers, and what does not.
 static_assert(rota::integer_coefficient<std::int8_t> && !rota::integer_coefficient<unsigned>);
 static_assert(!rota::integer_coefficient<double> && !rota::integer_coefficient<rota::sign>);
@@ -50,6 +117,9 @@ struct call_signs : rota::runtime_vocabulary {
 };
 static_assert(!rota::encodable_atom<rota::in<call_signs>> && rota::encodable_atom<atom>);
 static_assert(!rota::group_action<rota::delta<rota::in<call_signs>>, rota::fingerprint>);
+// One word holds no more than 64 bits: cut to it, two numbers would have one code.
+__extension__ using int128 = __int128;
+static_assert(rota::encodable<std::uint64_t> && !rota::encodable<int128>);
 
 // The shortest refutation and the criterion, by the compiler.
 constexpr auto s = event::addition(nth(0));

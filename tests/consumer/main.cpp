@@ -9,7 +9,9 @@
 #include <rota/adapters/eigen.hpp>
 #include <rota/sim/evaluation.hpp>
 #include <rota/testing/arbitrary.hpp>
-#include <rota/testing/check.hpp>
+#include <rota/testing/gtest.hpp>
+
+auto const laws = rota::testing::register_laws<rota::fingerprint>("fingerprint");
 #endif
 
 int main() {
@@ -19,7 +21,10 @@ int main() {
 #ifdef WITH_COMPONENTS
   // What links against the packages of the components: pugixml, nlohmann-json, Eigen, Boost, rapidcheck.
   ok = ok && !rota::alica::load(std::filesystem::path("no such file")).diagnostics.empty();
-  ok = ok && rota::testing::broken_laws(rota::testing::commutative_magma_laws<rota::fingerprint>()).empty();
+  ::testing::InitGoogleTest();
+  ok = ok && RUN_ALL_TESTS() == 0;
+  auto const each = static_cast<int>(rota::testing::laws_of<rota::fingerprint>().laws().size());
+  ok = ok && each > 0 && ::testing::UnitTest::GetInstance()->successful_test_count() == each;
   ok = ok && rota::sim::all_scenarios.size() == 5;
 #endif
   return ok ? 0 : 1;

@@ -3,6 +3,8 @@
 #include "testing/digits.hpp"
 
 #include <rota/testing/gtest.hpp>
+#include <rota/testing/homomorphism_laws.hpp>
+#include <rota/testing/module_laws.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -61,6 +63,36 @@ TEST(refutation, is_the_same_for_the_same_seed) {
   EXPECT_EQ(broken_laws(laws), broken_laws(laws));
 }
 
+/// Whatever the structure, its identities are all that anybody draws.
+struct nothing {
+  friend bool operator==(nothing, nothing) = default;
+  friend std::ostream& operator<<(std::ostream& out, nothing) { return out << "nothing"; }
+};
+struct nothings {
+  static nothing combine(nothing, nothing) { return {}; }
+  static nothing identity() { return {}; }
+  static nothing inverse(nothing) { return {}; }
+  static nothing scale(int, nothing) { return {}; }
+  static nothing act(nothing, nothing) { return {}; }
+  static nothing source(nothing) { return {}; }
+  static nothing target(nothing) { return {}; }
+  static nothing identity(nothing) { return {}; }
+  static nothing compose(nothing, nothing) { return {}; }
+};
+
+}  // namespace bundles_test
+
+template <>
+struct rc::Arbitrary<bundles_test::nothing> {
+  static Gen<bundles_test::nothing> arbitrary() { return gen::just(bundles_test::nothing{}); }
+};
+template <>
+struct rota::testing::arrows<bundles_test::nothing> {
+  static rc::Gen<bundles_test::nothing> from(bundles_test::nothing) { return rc::gen::just(bundles_test::nothing{}); }
+};
+
+namespace bundles_test {
+
 TEST(refutation, finds_a_generator_too_tame) {
   if (detail::parameters().maxSuccess < 1000) GTEST_SKIP() << "so few cases are not judged";
   bundle laws("b");
@@ -70,6 +102,20 @@ TEST(refutation, finds_a_generator_too_tame) {
   auto const broken = broken_laws(laws);
   ASSERT_EQ(broken.size(), 1u);
   EXPECT_NE(broken.at("m").find("instead of 20 %: a generator too tame"), std::string::npos) << broken.at("m");
+}
+
+TEST(refutation, finds_generators_of_identities_alone_too_tame) {
+  if (detail::parameters().maxSuccess < 1000) GTEST_SKIP() << "so few cases are not judged";
+  EXPECT_EQ(broken(abelian_group_laws<nothing, nothings>()),
+            "associative commutative inverse_involution left_identity left_inverse right_identity right_inverse");
+  EXPECT_EQ(broken(group_theorems<nothing, nothings>()), "inverse_of_product");
+  EXPECT_EQ(broken(module_laws<nothing, nothings>()), "adds_elements adds_scalars unit");
+  EXPECT_EQ(broken(groupoid_laws<nothing, nothings>()), "associative ends identity inverse");
+  EXPECT_EQ((broken(functor_laws<nothing, nothing, nothings, nothings>([](nothing x) { return x; }))),
+            "preserves_composition");
+  EXPECT_EQ((broken(homomorphism_laws<nothing, nothing, nothings, nothings>([](nothing x) { return x; }))),
+            "preserves_inverse preserves_product");
+  EXPECT_EQ((broken(group_action_laws<nothing, nothing, nothings, nothings>())), "compatible");
 }
 
 TEST(refutation, says_if_hardly_any_case_meets_the_premise) {

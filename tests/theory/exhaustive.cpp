@@ -270,12 +270,26 @@ TEST(delta, holds_the_events) {
     for (auto const& f : events(three_atoms)) sum(compose(e, f) == clamp(delta(e) + delta(f)));
   }
 }
+TEST(delta, extends_maps_to_homomorphisms) {
+  law values("f̂(1 x) = f(x)");
+  law homomorphism("f̂(d + e) = f̂(d) + f̂(e)");
+  // ℤ/2⁶⁴ is cyclic and not free, and its elements are many enough to tell all apart.
+  auto const f = [](atom const& x) { return code(x) + rota::fingerprint{1}; };
+  auto const all = deltas({2, 9}, 2);
+  for (std::size_t i = 0; i < 3 * atoms_per_agent; ++i)
+    values(extend(delta(nth(i), 1), f, rota::fingerprint{}) == f(nth(i)));
+  for (auto const& d : all)
+    for (auto const& e : all)
+      homomorphism(extend(d + e, f, rota::fingerprint{}) ==
+                   extend(d, f, rota::fingerprint{}) + extend(e, f, rota::fingerprint{}));
+}
 TEST(delta, refuses_what_its_coefficients_cannot_hold) {
   using small = rota::delta<atom, std::int8_t>;
   law sum("checked_sum is exact, or refused");
   law difference("checked_difference is exact, or refused");
   law product("checked_product is exact, or refused");
   law negation("checked_negation is exact, or refused");
+  law multiplier("so is checked_product by what is itself no coefficient");
   auto const at = [](int n) { return small(nth(1), static_cast<std::int8_t>(n)); };
   auto const exact = [](auto const& r, int n) {
     bool const fits = n >= -128 && n <= 127;
@@ -287,6 +301,7 @@ TEST(delta, refuses_what_its_coefficients_cannot_hold) {
       sum(exact(checked_sum(at(m), at(n)), m + n));
       difference(exact(checked_difference(at(m), at(n)), m - n));
       product(exact(checked_product(static_cast<std::int8_t>(m), at(n)), m * n));
+      multiplier(exact(checked_product(4 * m, at(n)), 4 * m * n));
     }
   }
   law least("a refusal names the least atom");
@@ -335,6 +350,7 @@ TEST(difference, is_the_one_event_that_leads_there) {
 TEST(difference, is_a_functor) {
   law functor("diff(C, C′) ∘ diff(C′, C″) = diff(C, C″)");
   law sum("ι(diff(C, C′)) + ι(diff(C′, C″)) = ι(diff(C, C″))");
+  law arrow("δ(C → C′) = χ(C′) − χ(C)");
   law arrows("transitions compose where they meet, and nowhere else");
   law made("C → e·C, where e is applicable");
   using transition = rota::transition<atom_set>;
@@ -348,6 +364,7 @@ TEST(difference, is_a_functor) {
         transition const u{d, e};
         functor(compose(difference(c, d), difference(d, e)) == difference(c, e));
         sum(delta_of(t) + delta_of(u) == delta_of(compose(t, u)) && event_of(compose(t, u)) == difference(c, e));
+        arrow(delta_of(u) == delta(e) - delta(d));
         auto const meets = checked_compose(transition{c, d}, transition{e, c});
         arrows(meets.has_value() == (d == e) &&
                (meets ? *meets == transition::identity(c) : meets.error().witness == difference(d, e).begin()->atom));
@@ -431,6 +448,7 @@ TEST(dense_event, is_the_sparse_one_in_every_operation) {
     same(to_sparse(d) == e && to_sparse(inverse(d)) == inverse(e) && d.size() == e.size() && d.empty() == e.empty());
     same(to_sparse(d.additions()) == e.additions() && to_sparse(d.subtractions()) == e.subtractions());
     for (std::size_t const x : chosen) same(d(x) == e(x));
+    same(d(65) == e(65));  // outside the universe
     for (auto const& f : all_events)
       same(to_sparse(compose(d, dense(f))) == compose(e, f) && (d == dense(f)) == (e == f));
     for (auto const& c : all_sets) {
@@ -461,6 +479,19 @@ TEST(dense_event, is_the_sparse_one_in_every_operation) {
       if (made && expected) same(to_sparse(*made) == *expected);
       if (!made && !expected) refuses(made.error() == expected.error());
     }
+  law atoms("so are events of one atom, and sets as atoms come and go");
+  for (std::size_t const x : chosen) {
+    using dense_event = rota::dense_event<U>;
+    atoms(to_sparse(*dense_event::addition(x)) == sparse_event::addition(x));
+    atoms(to_sparse(*dense_event::subtraction(x)) == sparse_event::subtraction(x));
+    for (auto const& c : all_sets) {
+      auto sparse_c = c;
+      auto dense_c = dense(c);
+      atoms(*dense_c.insert(x) == sparse_c.insert(x) && dense_c == dense(sparse_c) && dense_c.contains(x));
+      atoms(dense_c.erase(x) && sparse_c.erase(x) && dense_c == dense(sparse_c) && !dense_c.contains(x));
+      atoms(!dense_c.erase(x) && !dense_c.erase(65) && !dense_c.insert(65));
+    }
+  }
   EXPECT_EQ(to_dense(sparse_event::addition(65), U{}).error().witness, 65u);
 }
 
@@ -597,6 +628,23 @@ TEST(cycle, restores_the_part_of_b) {
         }
       }
     }
+}
+
+TEST(cycle, entails_a_conflict_only_while_b_stands_by_its_message) {
+  law stands("a cycle, and b's part of C_b is still what it told ⇒ a and b are in conflict");
+  law moved("a cycle, and C_b is by now what a believes ⇒ they are not");
+  auto const all = beliefs(2);
+  auto const b = static_cast<names::agent>(1);
+  for (auto const& before : all)
+    for (auto const& told : all)
+      for (auto const& after : all) {
+        if (part(told, names::agent{}) != part(before, names::agent{})) continue;  // b speaks for itself
+        if (!is_cycle(difference(before, told), difference(told, after), b)) continue;
+        allocation const believed{names::plan_type::ours, after};
+        moved(!in_conflict(believed, allocation{names::plan_type::ours, after}));
+        for (auto const& own : all)
+          if (part(own, b) == part(told, b)) stands(in_conflict(believed, allocation{names::plan_type::ours, own}));
+      }
 }
 
 // The same functions on operands of every size -------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 #include <rota/core/small_vector.hpp>
 
 #include <algorithm>
+#include <compare>
 #include <concepts>
 #include <cstddef>
 #include <initializer_list>
@@ -13,8 +14,12 @@
 namespace rota {
 
 /// What the algebra asks of an atom: a regular value with a total order. It knows no plans.
+///
+/// Refuses what says itself that its order is partial: floating point, for NaN, and whatever is made of it, such as
+/// std::optional<double>.
 template <class T>
-concept ordered_atom = std::regular<T> && std::totally_ordered<T> && !std::floating_point<T>;
+concept ordered_atom = std::regular<T> && std::totally_ordered<T> &&
+                       (!std::three_way_comparable<T> || std::three_way_comparable<T, std::weak_ordering>);
 
 /// A finite set C of atoms, such as an allocation.
 ///

@@ -40,6 +40,15 @@ concept integer_coefficient =
       { a* b } -> std::convertible_to<T>;
     };
 
+/// An integer n by which deltas are multiplied. The products must fit the coefficient type, n itself need not: it is never
+/// cut to size.
+///
+/// Refuses floating point, which would lose its fraction.
+template <class N, class Coefficient>
+concept integer_multiplier =
+    integer_coefficient<Coefficient> && !std::floating_point<N> && !std::same_as<N, bool> &&
+    (std::integral<Coefficient> ? std::integral<N> : std::convertible_to<N const&, Coefficient>);
+
 namespace detail {
 
 /// out = a + b; false where that leaves the type. Types that are no C++ integers are exact and hold everything.
@@ -62,13 +71,13 @@ constexpr bool subtract(T const& a, T const& b, T& out) {
     return true;
   }
 }
-/// out = a·b, likewise.
-template <integer_coefficient T>
-constexpr bool multiply(T const& a, T const& b, T& out) {
+/// out = n·b, likewise.
+template <integer_coefficient T, integer_multiplier<T> N>
+constexpr bool multiply(N const& n, T const& b, T& out) {
   if constexpr (std::integral<T>) {
-    return !__builtin_mul_overflow(a, b, &out);
+    return !__builtin_mul_overflow(n, b, &out);
   } else {
-    out = a * b;
+    out = static_cast<T>(n) * b;
     return true;
   }
 }
@@ -83,7 +92,7 @@ constexpr bool multiply(T const& a, T const& b, T& out) {
 ///
 /// Laws: abelian group under `+` with identity `{}`; ℤ-module under `*`. @pre of `+`, `−`, `*`: no coefficient of the result
 /// overflows; `checked_sum`, `checked_difference`, `checked_negation` and `checked_product` refuse instead. Sums take
-/// O(|d| + |e|).
+/// O(|d| + |e|), and no allocation where that is at most eight.
 template <ordered_atom Atom, integer_coefficient Coefficient = std::int64_t>
 class delta {
 public:
@@ -135,10 +144,14 @@ public:
   [[nodiscard]] friend constexpr delta operator-(delta const& d, delta const& e) {
     return checked(checked_difference(d, e));
   }
-  [[nodiscard]] friend constexpr delta operator*(Coefficient const& n, delta const& d) {
+  template <integer_multiplier<Coefficient> N>
+  [[nodiscard]] friend constexpr delta operator*(N const& n, delta const& d) {
     return checked(checked_product(n, d));
   }
-  [[nodiscard]] friend constexpr delta operator*(delta const& d, Coefficient const& n) { return n * d; }
+  template <integer_multiplier<Coefficient> N>
+  [[nodiscard]] friend constexpr delta operator*(delta const& d, N const& n) {
+    return n * d;
+  }
   constexpr delta& operator+=(delta const& e) { return *this = *this + e; }
   constexpr delta& operator-=(delta const& e) { return *this = *this - e; }
 
@@ -210,17 +223,16 @@ template <ordered_atom Atom, integer_coefficient T>
 [[nodiscard]] constexpr result<delta<Atom, T>, coefficient_overflow<Atom>> checked_negation(delta<Atom, T> const& d) {
   return checked_difference({}, d);
 }
-/// n·d, likewise. O(|d|).
-template <ordered_atom Atom, integer_coefficient T>
-[[nodiscard]] constexpr result<delta<Atom, T>, coefficient_overflow<Atom>>
-checked_product(std::type_identity_t<T> const& n, delta<Atom, T> const& d) {
+/// n·d, likewise, for any integer n. O(|d|).
+template <ordered_atom Atom, integer_coefficient T, integer_multiplier<T> N>
+[[nodiscard]] constexpr result<delta<Atom, T>, coefficient_overflow<Atom>> checked_product(N const& n,
+                                                                                           delta<Atom, T> const& d) {
   small_vector<multiple<Atom, T>, 8> entries;
-  if (n == T{}) return delta<Atom, T>{};
   entries.reserve(d.size());
   for (auto const& x : d) {
     T product{};
     if (!detail::multiply(n, x.count, product)) return refused{coefficient_overflow<Atom>{x.atom}};
-    entries.push_back({x.atom, product});
+    if (product != T{}) entries.push_back({x.atom, product});
   }
   return delta<Atom, T>::from_entries(std::move(entries));
 }

@@ -47,7 +47,7 @@ template <class T>
 concept encodable = requires(T const& x, void (*sink)(std::uint64_t)) { atom_encoding<T>::feed(x, sink); };
 
 template <class T>
-  requires std::integral<T> || std::is_enum_v<T>
+  requires(std::integral<T> || std::is_enum_v<T>) && (sizeof(T) <= sizeof(std::uint64_t))
 struct atom_encoding<T> {
   static constexpr void feed(T const& x, auto&& sink) { sink(static_cast<std::uint64_t>(x)); }
 };

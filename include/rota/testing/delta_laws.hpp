@@ -25,16 +25,23 @@ struct embedding_model {
 template <class M>
 [[nodiscard]] bundle embedding_laws() {
   using E = typename M::event_type;
+  using D = typename M::delta_type;
   bundle laws("embedding");
-  laws.add("clamp_retracts_the_embedding", "ρ(ι(e)) = e", [] {
-    auto const e = draw<E>("e");
-    same("ρ(ι(e))", M::clamp(M::embed(e)), "e", e);
-  });
-  laws.add("compose_is_the_clamped_sum", "e∘f = ρ(ι(e) + ι(f))", [] {
-    auto const e = draw<E>("e");
-    auto const f = draw<E>("f");
-    same("e∘f", M::compose(e, f), "ρ(ι(e) + ι(f))", M::clamp(M::embed(e) + M::embed(f)));
-  });
+  laws.add("clamp_retracts_the_embedding", "ρ(ι(e)) = e",
+           [] {
+             auto const e = draw<E>("e");
+             interesting(!(M::embed(e) == D{}), "e is not empty");
+             same("ρ(ι(e))", M::clamp(M::embed(e)), "e", e);
+           },
+           {{"e is not empty"}});
+  laws.add("compose_is_the_clamped_sum", "e∘f = ρ(ι(e) + ι(f))",
+           [] {
+             auto const e = draw<E>("e");
+             auto const f = draw<E>("f");
+             interesting(!(M::embed(M::compose(e, f)) == M::embed(e) + M::embed(f)), "the clamp cuts");
+             same("e∘f", M::compose(e, f), "ρ(ι(e) + ι(f))", M::clamp(M::embed(e) + M::embed(f)));
+           },
+           {{"the clamp cuts"}});
   return laws;
 }
 
@@ -82,13 +89,16 @@ template <class M>
     auto const x = nth_atom<Atom>(static_cast<std::size_t>(*integer(0, 7).as("x, the atom number")));
     same("f̂(1 x)", M::extend(D(x, 1), f, residue{}), "f(x)", f(x));
   });
-  laws.add("additive", "f̂(d + e) = f̂(d) + f̂(e)", [] {
-    auto const f = detail::draw_map<Atom>("f, atom by atom");
-    auto const d = draw<D>("d");
-    auto const e = draw<D>("e");
-    same("f̂(d + e)", M::extend(d + e, f, residue{}), "f̂(d) + f̂(e)",
-         M::extend(d, f, residue{}) + M::extend(e, f, residue{}));
-  });
+  laws.add("additive", "f̂(d + e) = f̂(d) + f̂(e)",
+           [] {
+             auto const f = detail::draw_map<Atom>("f, atom by atom");
+             auto const d = draw<D>("d");
+             auto const e = draw<D>("e");
+             interesting(!(d == D{} || e == D{} || d + e == D{}), "neither d, e nor the sum is zero");
+             same("f̂(d + e)", M::extend(d + e, f, residue{}), "f̂(d) + f̂(e)",
+                  M::extend(d, f, residue{}) + M::extend(e, f, residue{}));
+           },
+           {{"neither d, e nor the sum is zero"}});
   return laws;
 }
 

@@ -46,10 +46,13 @@ template <class E, class S = structure<E>>
   bundle laws("definition_4");
   laws.merge(commutative_magma_laws<E, S>());
   laws.merge(invertible_magma_laws<E, S>());
-  laws.add("idempotent", "e∘e = e", [] {
-    auto const e = draw<E>("e");
-    same("e∘e", S::combine(e, e), "e", e);
-  });
+  laws.add("idempotent", "e∘e = e",
+           [] {
+             auto const e = draw<E>("e");
+             detail::count_nontrivial<S>(e);
+             same("e∘e", S::combine(e, e), "e", e);
+           },
+           {detail::without_identity});
   laws.add("unique_inverse", "e∘f = ∅ = e∘g ⇒ f = g", [] {
     auto const e = draw<E>("e");
     auto const f = draw<E>("f");

@@ -20,6 +20,7 @@ namespace rota::testing {
 template <class T>
 [[nodiscard]] bundle laws_of() {
   if constexpr (groupoid<T>) {
+    static_assert(!magma<T>, "a structure that composes arrows and combines elements is two: the laws of which?");
     return groupoid_laws<T>();
   } else if constexpr (allocation_event<T> || requires(T const& x) { structure<T>::signs(x); }) {
     auto laws = bundle("allocation_event").merge(structure_laws<T>()).merge(allocation_event_laws<T>());

@@ -24,10 +24,13 @@ template <class T, class U, class S = structure<T>, class R = structure<U>>
     same("f(1)", f(S::identity()), "1", R::identity());
   });
   if constexpr (requires(T const& x, U const& y) { S::inverse(x), R::inverse(y); })
-    laws.add_closure("preserves_inverse", "f(x⁻¹) = f(x)⁻¹", [f] {
-      auto const x = draw<T>("x");
-      same("f(x⁻¹)", f(S::inverse(x)), "f(x)⁻¹", R::inverse(f(x)));
-    });
+    laws.add_closure("preserves_inverse", "f(x⁻¹) = f(x)⁻¹",
+                     [f] {
+                       auto const x = draw<T>("x");
+                       detail::count_nontrivial<S>(x);
+                       same("f(x⁻¹)", f(S::inverse(x)), "f(x)⁻¹", R::inverse(f(x)));
+                     },
+                     {detail::without_identity});
   return laws;
 }
 

@@ -78,14 +78,20 @@ template <class T, class S = structure<T>>
 [[nodiscard]] bundle unital_magma_laws() {
   bundle laws("unital_magma");
   laws.merge(magma_laws<T, S>());
-  laws.add("left_identity", "1·x = x", [] {
-    auto const x = draw<T>("x");
-    same("1·x", S::combine(S::identity(), x), "x", x);
-  });
-  laws.add("right_identity", "x·1 = x", [] {
-    auto const x = draw<T>("x");
-    same("x·1", S::combine(x, S::identity()), "x", x);
-  });
+  laws.add("left_identity", "1·x = x",
+           [] {
+             auto const x = draw<T>("x");
+             detail::count_nontrivial<S>(x);
+             same("1·x", S::combine(S::identity(), x), "x", x);
+           },
+           {detail::without_identity});
+  laws.add("right_identity", "x·1 = x",
+           [] {
+             auto const x = draw<T>("x");
+             detail::count_nontrivial<S>(x);
+             same("x·1", S::combine(x, S::identity()), "x", x);
+           },
+           {detail::without_identity});
   return laws;
 }
 
@@ -124,10 +130,13 @@ template <class T, class S = structure<T>>
              same("x·x⁻¹", S::combine(x, S::inverse(x)), "1", S::identity());
            },
            {detail::without_identity});
-  laws.add("inverse_involution", "(x⁻¹)⁻¹ = x", [] {
-    auto const x = draw<T>("x");
-    same("(x⁻¹)⁻¹", S::inverse(S::inverse(x)), "x", x);
-  });
+  laws.add("inverse_involution", "(x⁻¹)⁻¹ = x",
+           [] {
+             auto const x = draw<T>("x");
+             detail::count_nontrivial<S>(x);
+             same("(x⁻¹)⁻¹", S::inverse(S::inverse(x)), "x", x);
+           },
+           {detail::without_identity});
   return laws;
 }
 
@@ -177,11 +186,14 @@ template <class T, class S = structure<T>>
     auto const x = draw<T>("x");
     if (S::combine(x, x) == x) same("x", x, "1", S::identity());
   });
-  laws.add("inverse_of_product", "(x·y)⁻¹ = y⁻¹·x⁻¹", [] {
-    auto const x = draw<T>("x");
-    auto const y = draw<T>("y");
-    same("(x·y)⁻¹", S::inverse(S::combine(x, y)), "y⁻¹·x⁻¹", S::combine(S::inverse(y), S::inverse(x)));
-  });
+  laws.add("inverse_of_product", "(x·y)⁻¹ = y⁻¹·x⁻¹",
+           [] {
+             auto const x = draw<T>("x");
+             auto const y = draw<T>("y");
+             detail::count_nontrivial<S>(x, y);
+             same("(x·y)⁻¹", S::inverse(S::combine(x, y)), "y⁻¹·x⁻¹", S::combine(S::inverse(y), S::inverse(x)));
+           },
+           {detail::without_identity});
   return laws;
 }
 
