@@ -5,6 +5,7 @@
 
 #include <rota/adapters/alica/convert.hpp>
 #include <rota/algebra/action.hpp>
+#include <rota/allocation/print.hpp>
 #include <rota/allocation/validate.hpp>
 #include <rota/search/best_allocation.hpp>
 #include <rota/search/reallocate.hpp>
@@ -82,7 +83,8 @@ std::string explain(plan_refusal<vocabulary> const& r, question const& q) {
              (r.task != vocabulary::task{}     ? ": left over is " + task()
               : r.agent != vocabulary::agent{} ? ": left over is " + q.who.name(r.agent)
                                                : std::string());
-    case no_plan_reason::utility_refused: return "the utilities are too large to be summed exactly";
+    case no_plan_reason::utility_refused: return "a utility " + to_string(r.fault);
+    case no_plan_reason::utilities_too_great: return "the utilities are too large to be summed exactly";
     case no_plan_reason::precondition_never_holds: return "its precondition never holds";
     case no_plan_reason::precondition_threw: return "its precondition failed";
     case no_plan_reason::negative_utility: return "its utility is at most " + number(r.value) + ", below 0";

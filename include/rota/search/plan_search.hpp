@@ -80,7 +80,8 @@ private:
     outcome out;
     out.refusal = form_.refusal();
     out.refusal.plan = plan_.id();
-    out.bound = std::numeric_limits<std::int64_t>::min();
+    bool const searched = out.refusal.why != no_plan_reason::utilities_too_great;
+    out.bound = searched ? std::numeric_limits<std::int64_t>::min() : dense::no_bound;
     return out;
   }
   outcome refuse(no_plan_reason why) {

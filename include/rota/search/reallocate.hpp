@@ -16,9 +16,9 @@ enum class reallocation_reason : unsigned char {
   current_invalid,      ///< the current one is not valid (any more); the best is adopted
   kept_optimal,         ///< nothing is better than the current one, proved
   kept_hysteresis,      ///< something is better, by no more than the margin and what the changes cost
-  kept_unproved,        ///< the budget ran out, and nothing found beats the current one
+  kept_unproved,        ///< nothing found beats the current one, but not all was searched: see `solution::optimal`
   no_valid_allocation,  ///< proved; the allocation becomes ∅
-  search_incomplete  ///< the current one is not valid, and the budget ran out before a valid one was found; becomes ∅
+  search_incomplete     ///< the current one is not valid, and none was found, but not all was searched; becomes ∅
 };
 
 /// What to do now: `event` leads from the current allocation to `atoms`.
