@@ -356,6 +356,56 @@ TEST(best_allocation, says_how_far_it_may_be_from_the_optimum) {
   EXPECT_EQ(some.gap, 3.0 - some.utility);
 }
 
+TEST(best_allocation, that_is_stopped_at_once_has_an_answer_all_the_same) {
+  auto d = three_tasks();
+  d.utility = rota::general_utility<names, rota::no_beliefs>{[](auto, view_t c) { return odd_tasks(c); },
+                                                             [](auto, view_t, rest_t) { return 3.0; }};
+  auto const at_once = [] { return true; };
+  rota::search_budget none;
+  none.stop = at_once;
+  team_of team(5);
+  for (auto const& budget : {none, rota::search_budget{.nodes = 0}}) {
+    auto const s = team.solve(d, budget);
+    EXPECT_EQ(s.work.nodes, 0u);
+    EXPECT_FALSE(s.optimal);
+    EXPECT_EQ(s.gap, 3.0 - s.utility);
+    EXPECT_EQ(odd_tasks(s.atoms.atoms()), s.utility);
+  }
+  // And it is no worse than what runs, if that is valid.
+  auto const type = rota::plan_type<names>::make({}, {plan_t::make(d).value()}).value();
+  rota::problem<names, rota::no_beliefs> p{type, team.members, rota::no_beliefs{}};
+  rota::allocation_atoms<names> runs;
+  for (int a = 0; a < 3; ++a) runs.insert({names::agent(a + 1), {}, names::task(2 - a)});
+  p.current = runs.atoms();
+  auto const s = best_allocation(p, team.space, none);
+  ASSERT_TRUE(s);
+  EXPECT_EQ(s->utility, 3.0);
+  EXPECT_EQ(s->atoms, runs);
+}
+
+TEST(tree_solver, a_bound_that_denies_what_is_known_lies) {
+  int lies = 0;
+  EXPECT_TRUE(rc::check([&] {
+    dice d(*small_world::any_seed().as("seed"));
+    setting s(d, 5, 3);
+    s.asked.slack = -1 - d.below(3);
+    s.explore();
+    if (degenerate(s) || s.best == nothing || s.in.agents < 2) return;
+    auto const known = s.first();
+    tree_solver solver;
+    tree_options options;
+    options.known = known;
+    options.known_value = s.best;
+    auto const got = solver.solve(s.in, s.asked, options);
+    RC_ASSERT(got.lie);
+    RC_ASSERT(got.lie->bound < got.lie->value);
+    RC_ASSERT(s.asked.value(solver.refuter()) == got.lie->value);
+    RC_ASSERT(s.asked.bound(solver.refuter().first(got.lie->depth), 0) == got.lie->bound);
+    ++lies;
+  }));
+  EXPECT_GE(lies, 200);
+}
+
 TEST(best_allocation, leaves_what_an_outlook_calls_impossible) {
   auto d = three_tasks();
   d.utility = rota::additive_utility<names, rota::no_beliefs>([](auto a, auto t, auto) {

@@ -168,7 +168,14 @@ TEST(reallocate, a_spent_budget_keeps_a_valid_allocation_and_says_so) {
   EXPECT_FALSE(kept.optimal);
   EXPECT_TRUE(kept.event.empty());
   EXPECT_LE(kept.work.nodes, 10u);
-  auto const stopped = reallocate(problem, atoms_t{{names::agent(0), names::plan(1), names::task(0)}}, {}, work, {3});
+  atoms_t const invalid{{names::agent(0), names::plan(1), names::task(0)}};
+  auto const replaced = reallocate(problem, invalid, {}, work, {0});
+  EXPECT_EQ(replaced.reason, reason::current_invalid);
+  EXPECT_FALSE(replaced.optimal);
+  EXPECT_TRUE(replaced.plan);
+  raw.plans[0].pre = truth::never;
+  built const c(raw);
+  auto const stopped = reallocate(rota::problem{c.type, c.team, c.beliefs}, invalid, {}, work, {3});
   EXPECT_EQ(stopped.reason, reason::search_incomplete);
   EXPECT_TRUE(stopped.atoms.empty());
   EXPECT_FALSE(stopped.plan);
