@@ -653,6 +653,34 @@ TEST(pairwise, sixty_four_agents_fit_and_stop_when_told) {
   EXPECT_EQ(accounted(s, p), power(8, 64));
 }
 
+// Getting ready is work as well: for twenty agents more than half a tick.
+TEST(pairwise, may_be_stopped_before_there_is_anything_to_search) {
+  problem large = dense_problem(1, 20, 5);
+  for (auto& b : large.bounds) b.upper = 5;
+  pairwise_solver s;
+  auto const at_once = s.solve(large.view(), ~std::uint64_t{0}, [] { return true; });
+  EXPECT_TRUE(at_once.found);
+  EXPECT_LE(at_once.nodes, 5000u);
+
+  problem const p = dense_problem(2, 14, 4);
+  auto const best = s.solve(p.view());
+  ASSERT_TRUE(best.complete);
+  auto const chosen_then = chosen(s);
+  int stopped = 0;
+  for (int patience = 0; patience < 60; ++patience) {
+    int polls = 0;
+    auto const got = s.solve(p.view(), ~std::uint64_t{0}, [&] { return ++polls > patience; });
+    ASSERT_TRUE(got.found) << patience;
+    EXPECT_EQ(value_of(p, chosen(s)), got.value) << patience;
+    EXPECT_LE(got.value, best.value) << patience;
+    EXPECT_GE(got.bound, best.value) << patience;
+    EXPECT_EQ(accounted(s, p), power(4, 14)) << patience;
+    EXPECT_TRUE(!got.complete || chosen(s) == chosen_then) << patience;
+    stopped += !got.complete;
+  }
+  EXPECT_GE(stopped, 15);
+}
+
 TEST(pairwise, kernels_for_this_machine_do_what_the_portable_ones_do) {
   using namespace rota::dense::detail;
   EXPECT_TRUE(rc::check([&] {
