@@ -653,6 +653,28 @@ TEST(pairwise, sixty_four_agents_fit_and_stop_when_told) {
   EXPECT_EQ(accounted(s, p), power(8, 64));
 }
 
+// Where anybody may idle there are thousands of ways to fill the slots, and bounds by counts are worth their while.
+TEST(pairwise, room_for_everybody_in_one_slot_does_not_undo_the_bounds) {
+  problem p = dense_problem(3, 18, 5);
+  for (auto& b : p.bounds) b = {0, 6};
+  p.bounds.back().upper = 18;
+  for (std::size_t a = 0; a < p.agents; ++a) p.unary[(a + 1) * p.slots - 1] = 0;
+  for (table& t : p.tables)
+    for (std::size_t x = 0; x < p.slots; ++x)
+      t.worth[x * p.slots + p.slots - 1] = t.worth[(p.slots - 1) * p.slots + x] = 0;
+  pairwise_solver s;
+  auto const got = s.solve(p.view());
+  ASSERT_TRUE(got.complete);
+  EXPECT_EQ(value_of(p, chosen(s)), got.value);
+  auto const best = chosen(s);
+  s.effort.exact_suffix = 0;
+  auto const without = s.solve(p.view());
+  ASSERT_TRUE(without.complete);
+  EXPECT_EQ(without.value, got.value);
+  EXPECT_EQ(chosen(s), best);
+  EXPECT_LT(4 * got.nodes, without.nodes);
+}
+
 // Getting ready is work as well: for twenty agents more than half a tick.
 TEST(pairwise, may_be_stopped_before_there_is_anything_to_search) {
   problem large = dense_problem(1, 20, 5);

@@ -30,14 +30,15 @@ namespace rota::dense {
 /// bound (`pairwise_search`) adds to these what the unplaced get from the placed at best, slots having prices
 /// (`price_table`). Ties are settled only where bounds do not exclude them.
 ///
-/// Memory O(n²·m² + states·(m + final counts)), at most some 10 MB for n ≤ 20, m ≤ 8; recursion at most n + m deep.
+/// Memory O(n²·m²), at most 45 MB (1 MB for n ≤ 20, m ≤ 8), and bounds by counts in tables of fixed size, at most 75 MB.
+/// Recursion at most n + m deep.
 class pairwise_solver {
 public:
   /// How the work is divided. It changes no answer that is complete.
   pairwise_effort effort;
 
   /// Searches until the canonical optimum is proved, about `budget` nodes have been tried, or stop() says so, which is
-  /// asked every few thousand nodes, and now and then before there are any. See `no_observer` for what an observer hears.
+  /// asked every few hundred nodes, and now and then before there are any. See `no_observer` for what an observer hears.
   ///
   /// @return found = false and complete = true iff no assignment is valid
   /// @pre the preconditions of `pairwise_instance`
@@ -149,7 +150,7 @@ private:
     if (effort.exact_suffix != pairwise_effort::automatic) plan.exact = effort.exact_suffix;
     if (effort.bounded_suffix != pairwise_effort::automatic) plan.beyond = effort.bounded_suffix;
     if (upper_.size() > price_table::most_slots || !detail::count_space::fits(upper_.size(), n) ||
-        price_table::number_of_finals(lower_, upper_, n) > price_table::most_finals)
+        price_table::number_of_finals(lower_, upper_, n) > price_table::most_finals(n))
       plan = {};
     suffix_.prepare(model_, upper_, plan, stop);
     if (suffix_.counted(n)) prices_.prepare(model_, suffix_, lower_, upper_);

@@ -34,7 +34,7 @@ struct plan_memory {
 /// on it: optima are canonical.
 ///
 /// Grows to O(n·t + t²) integers a plan for the largest problem it met, n agents and t tasks, and O(n²·t²) where utilities
-/// are pairwise. One per thread.
+/// are pairwise; for these a solver besides, with up to 120 MB (see `dense::pairwise_solver`). One per thread.
 class workspace {
 public:
   std::vector<plan_memory> plans;  ///< by their order in the plan type

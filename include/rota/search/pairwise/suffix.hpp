@@ -80,7 +80,8 @@ public:
         break;
       }
       std::fill_n(by(agents_ - k), space_.size(k) * width_, -impossible);
-      for (std::size_t r = 1; r <= std::min(k - enumerated_, most_placed) && (r == 1 || affordable(k, r)); ++r)
+      for (std::size_t r = 1; r <= std::min(k - enumerated_, most_placed) && (r == 1 || (affordable(k, r) && !stop()));
+           ++r)
         expand(model, agents_ - k, r);
       settle(k);
     }
