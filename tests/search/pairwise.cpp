@@ -653,6 +653,24 @@ TEST(pairwise, sixty_four_agents_fit_and_stop_when_told) {
   EXPECT_EQ(accounted(s, p), power(8, 64));
 }
 
+// A pair that many tables forbid is as far away as one that a single table forbids, not so far that sums come round again.
+TEST(pairwise, forbidden_often_is_forbidden) {
+  problem p;
+  p.agents = 3;
+  p.slots = 2;
+  p.unary.assign(6, 1);
+  p.bounds.assign(2, {0, 3});
+  for (int i = 0; i < 1 << 13; ++i) p.tables.push_back({0, 1, {absent, 0, 0, absent}});
+  pairwise_solver s;
+  for (std::uint64_t const enumerated : {2048, 0}) {
+    s.effort.enumerate_up_to = enumerated;
+    auto const got = s.solve(p.view());
+    ASSERT_TRUE(got.complete && got.found);
+    EXPECT_EQ(got.value, 3);
+    EXPECT_EQ(chosen(s), (choice{0, 1, 0}));
+  }
+}
+
 // Where anybody may idle there are thousands of ways to fill the slots, and bounds by counts are worth their while.
 TEST(pairwise, room_for_everybody_in_one_slot_does_not_undo_the_bounds) {
   problem p = dense_problem(3, 18, 5);
