@@ -4,11 +4,13 @@
 
 #include <rota/search/best_allocation.hpp>
 #include <rota/search/general.hpp>
+#include <rota/search/reallocate.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -339,6 +341,32 @@ TEST(best_allocation, reports_a_lying_bound_with_the_partial_allocation) {
   EXPECT_TRUE(is_subset(s.lie->partial, s.lie->complete));
   EXPECT_EQ(odd_tasks(s.lie->complete.atoms()), s.lie->value);
   EXPECT_EQ(odd_tasks(s.atoms.atoms()), s.utility) << "what it returns is valid all the same";
+}
+
+TEST(reallocate, passes_on_what_a_search_complains_of) {
+  auto d = three_tasks();
+  d.utility = rota::general_utility<names, rota::no_beliefs>{
+      [](auto, view_t c) { return c.size() == 5 ? std::nan("") : odd_tasks(c); },
+      [](auto, view_t, rest_t rest) { return rest.empty() ? 3.0 : 0.5; }};
+  team_of team(5);
+  auto const ask = [&] {
+    auto const type = rota::plan_type<names>::make({}, {plan_t::make(d).value()}).value();
+    return reallocate(rota::problem{type, team.members, rota::no_beliefs{}}, {}, {}, team.space, {.audit = true});
+  };
+  auto const some = ask();
+  EXPECT_TRUE(some.plan);
+  EXPECT_FALSE(some.optimal);
+  ASSERT_TRUE(some.lie);
+  EXPECT_EQ(some.lie->bound, 0.5);
+  ASSERT_TRUE(some.ignored);
+  EXPECT_EQ(some.ignored->why, rota::utility_fault::not_a_number);
+  d.utility = rota::general_utility<names, rota::no_beliefs>{[](auto, view_t) { return -1.0; },
+                                                             [](auto, view_t, rest_t) { return -2.0; }};
+  auto const none = ask();
+  EXPECT_FALSE(none.plan);
+  EXPECT_EQ(none.reason, rota::reallocation_reason::search_incomplete);
+  ASSERT_TRUE(none.lie);
+  EXPECT_EQ(none.lie->value, -1.0);
 }
 
 TEST(best_allocation, says_how_far_it_may_be_from_the_optimum) {

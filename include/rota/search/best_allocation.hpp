@@ -67,6 +67,8 @@ template <vocabulary V, class Beliefs>
   }
   if (winner == nullptr) {
     none.work = best.work;
+    none.ignored = best.ignored;
+    none.lie = std::move(best.lie);
     return refused{std::move(none)};
   }
   best.optimal = bound <= best.objective.units;

@@ -34,6 +34,8 @@ struct reallocation {
   bool optimal = false;          ///< no valid allocation is better than the best one found
   double gap = 0;                ///< no valid allocation is better than the best one found by more than this
   search_work work{};
+  std::optional<utility_refusal<V>> ignored{};  ///< see `solution`; of all plans if there is no valid allocation
+  std::optional<bound_lie<V>> lie{};            ///< likewise
 
   friend bool operator==(reallocation const&, reallocation const&) = default;
 };
@@ -111,6 +113,8 @@ template <vocabulary V, class Beliefs>
   next.optimal = best ? best->optimal : best.error().proved();
   next.gap = best ? best->gap : 0;
   next.work = best ? best->work : best.error().work;
+  next.ignored = best ? best->ignored : best.error().ignored;
+  next.lie = best ? std::move(best->lie) : std::move(best.error().lie);
   if (now && best) next.gain = to_double({best->objective.units - now->utility.units});
 
   if (now && (!best || !beats(best->objective, now->utility, detail::margin_over(*now, h)))) {

@@ -92,6 +92,8 @@ template <vocabulary V = runtime_vocabulary>
 struct no_allocation {
   small_vector<plan_refusal<V>, 2> plans;  ///< one per plan, ascending
   search_work work{};
+  std::optional<utility_refusal<V>> ignored{};  ///< as in `solution`
+  std::optional<bound_lie<V>> lie{};            ///< likewise: then there may be a valid allocation
 
   /// Whether this is a proof that there is none.
   [[nodiscard]] constexpr bool proved() const noexcept {
