@@ -467,6 +467,31 @@ TEST(best_allocation, interchangeable_agents_cost_little) {
   EXPECT_LT(seeing.work.nodes * 100, blind.work.nodes);
 }
 
+TEST(best_allocation, branch_and_bound_in_a_steady_loop_allocates_nothing) {
+  auto d = three_tasks();
+  double more = 0;
+  d.utility = rota::weighted_sum<names, rota::no_beliefs>{
+      {1, rota::additive_utility<names, rota::no_beliefs>{[&more](auto a, auto t, auto) {
+         return more * static_cast<int>(a) + static_cast<int>(t);
+       }}},
+      {2, rota::general_utility<names, rota::no_beliefs>{[](auto, view_t c) { return odd_tasks(c); },
+                                                         [](auto, view_t, rest_t) { return 3.0; }}}};
+  d.precondition = [](auto, view_t c) { return c.size() != 3; };
+  auto const type = rota::plan_type<names>::make({}, {plan_t::make(d).value()}).value();
+  team_of team(8);
+  rota::allocation_atoms<names> runs;
+  auto const tick = [&](double u) {
+    more = u;
+    auto const next = reallocate(rota::problem{type, team.members, rota::no_beliefs{}}, runs, {}, team.space);
+    EXPECT_GT(next.work.nodes, 0u);
+    runs = next.atoms;
+  };
+  tick(1);
+  auto const before = rota_test::allocation_count();
+  for (int i = 0; i < 20; ++i) tick(i % 5);
+  EXPECT_EQ(rota_test::allocation_count(), before);
+}
+
 TEST(best_allocation, a_utility_that_throws_leaves_the_workspace_usable) {
   auto d = three_tasks();
   d.utility = rota::pairwise_utility<names, rota::no_beliefs>{
