@@ -662,7 +662,7 @@ TEST(pairwise, forbidden_often_is_forbidden) {
   p.bounds.assign(2, {0, 3});
   for (int i = 0; i < 1 << 13; ++i) p.tables.push_back({0, 1, {absent, 0, 0, absent}});
   pairwise_solver s;
-  for (std::uint64_t const enumerated : {2048, 0}) {
+  for (std::uint64_t const enumerated : {2048u, 0u}) {
     s.effort.enumerate_up_to = enumerated;
     auto const got = s.solve(p.view());
     ASSERT_TRUE(got.complete && got.found);
