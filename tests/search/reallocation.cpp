@@ -95,6 +95,11 @@ TEST(reallocate, keeps_what_is_valid_and_good_enough) {
       RC_ASSERT(got.reason == expected.why);
       RC_ASSERT(to_facts(got.atoms) == expected.atoms);
       RC_ASSERT(got.optimal);
+      auto known = problem;
+      known.current = before.atoms();
+      auto same = reallocate(problem, before, h, best_allocation(known, work));
+      same.work = got.work;
+      RC_ASSERT(same == got);
       RC_ASSERT(got.event == rota::difference(before, got.atoms));
       RC_ASSERT(rota::apply(got.event, before).value() == got.atoms);
       if (got.plan) {
