@@ -5,6 +5,7 @@
 
 #include <rota/adapters/alica/convert.hpp>
 #include <rota/algebra/action.hpp>
+#include <rota/allocation/print.hpp>
 #include <rota/allocation/validate.hpp>
 #include <rota/search/best_allocation.hpp>
 #include <rota/search/reallocate.hpp>
@@ -82,7 +83,8 @@ std::string explain(plan_refusal<vocabulary> const& r, question const& q) {
              (r.task != vocabulary::task{}     ? ": left over is " + task()
               : r.agent != vocabulary::agent{} ? ": left over is " + q.who.name(r.agent)
                                                : std::string());
-    case no_plan_reason::utility_refused: return "the utilities are too large to be summed exactly";
+    case no_plan_reason::utility_refused: return "a utility " + to_string(r.fault);
+    case no_plan_reason::utilities_too_great: return "the utilities are too large to be summed exactly";
     case no_plan_reason::precondition_never_holds: return "its precondition never holds";
     case no_plan_reason::precondition_threw: return "its precondition failed";
     case no_plan_reason::negative_utility: return "its utility is at most " + number(r.value) + ", below 0";
@@ -107,8 +109,9 @@ std::vector<std::string> idle_agents(question const& q, allocation_atoms<vocabul
   return idle;
 }
 
-named_decision decide(question const& q, workspace& work, search_budget const& budget) {
-  auto const r = reallocate(q.problem, q.current, hysteresis{}, work, budget);
+/// What a running team would do about it.
+named_decision decide(question const& q, solution<vocabulary> const& s) {
+  auto const r = reallocate<vocabulary, no_beliefs>(q.problem, q.current, hysteresis{}, s);
   auto const gain = r.gain ? number(*r.gain) : std::string();
   switch (r.reason) {
   case reallocation_reason::first: return {false, "the team has no allocation yet"};
@@ -130,7 +133,7 @@ named_change named(question const& q, atom const& x) {
   return {q.who.name(x.agent), q.where.type != nullptr ? std::optional(plan()) : std::nullopt, q.task(x)};
 }
 
-named_answer named(question const& q, solution<vocabulary> const& s, workspace& work, search_budget const& budget) {
+named_answer named(question const& q, solution<vocabulary> const& s) {
   named_answer out;
   out.plan = q.where.name(q.where.plan(s.plan));
   out.utility = s.utility;
@@ -141,7 +144,7 @@ named_answer named(question const& q, solution<vocabulary> const& s, workspace& 
   if (!q.has_current) return out;  // nothing to compare with: nothing is added or removed
   for (auto const& x : difference(q.current, s.atoms))
     (x.value == sign::plus ? out.added : out.removed).push_back(named(q, x.atom));
-  out.decision = decide(q, work, budget);
+  out.decision = decide(q, s);
   return out;
 }
 
@@ -193,7 +196,7 @@ std::string clauses(question const& q, solution<vocabulary> const& s, validity_r
 }
 
 std::string as_text(question const& q, solution<vocabulary> const& s, validity_report<vocabulary> const& report,
-                    std::string const& current_file, workspace& work, search_budget const& budget) {
+                    std::string const& current_file) {
   auto const& p = q.where.plan(s.plan);
   std::string out;
   auto const line = [&](std::string const& text) { out += printable(text) + '\n'; };
@@ -220,7 +223,7 @@ std::string as_text(question const& q, solution<vocabulary> const& s, validity_r
     line(std::string("  ") + (x.value == sign::plus ? "+ " : "- ") + q.who.name(x.atom.agent) + "  " +
          (q.where.type != nullptr ? q.where.name(q.where.plan(x.atom.plan)) + '/' : "") + q.task(x.atom));
   for (auto const& name : q.departed) line("  " + name + " is not in the table: it left");
-  auto const d = decide(q, work, budget);
+  auto const d = decide(q, s);
   line("decision");
   line(std::string("  a running team ") +
        (!d.keep     ? "adopts this: "
@@ -256,8 +259,9 @@ outcome run_allocate(allocate_options const& o) {
   team<vocabulary> members;
   for (auto const a : who.present()) members.add(a);
   no_beliefs const beliefs;
-  problem<vocabulary, no_beliefs> const p{type, members, beliefs, o.no_idle ? idling::forbidden : idling::allowed};
+  problem<vocabulary, no_beliefs> p{type, members, beliefs, o.no_idle ? idling::forbidden : idling::allowed};
   question const q{*where, who, worth, type, p, atoms_of(old, *where, who, o.current), !o.current.empty(), departed};
+  p.current = q.current.atoms();
 
   workspace work;
   using clock = std::chrono::steady_clock;
@@ -280,8 +284,8 @@ outcome run_allocate(allocate_options const& o) {
   if (!report) throw std::logic_error("the allocation found is not valid: please report this");
   std::optional<search_report> stats;
   if (o.stats) stats = search_report{best->work, taken.count()};
-  if (!o.json) return {as_text(q, *best, report, o.current, work, budget) + (stats ? as_text(*stats) : ""), success};
-  auto answer = named(q, *best, work, budget);
+  if (!o.json) return {as_text(q, *best, report, o.current) + (stats ? as_text(*stats) : ""), success};
+  auto answer = named(q, *best);
   answer.stats = stats;
   return {as_json(answer), success};
 }

@@ -82,11 +82,17 @@ long double proven(problem const& p, additive_solver const& solver) {
   return most;
 }
 
-/// The tightened bounds follow from those of the problem: each lies inside, and none excludes a valid assignment's count.
+/// The bounds that prices are certified with exclude no valid assignment: they are what the problem's imply for the number of
+/// agents, who all go somewhere, or looser.
 void check_bounds(problem const& p, additive_solver const& solver) {
+  std::int64_t const n = std::count_if(p.part.begin(), p.part.end(), [](auto x) { return x != 0; });
   for (std::size_t s = 0; s < p.slots; ++s) {
-    RC_ASSERT(solver.bounds(s).lower >= p.bounds[s].first);
-    RC_ASSERT(solver.bounds(s).upper <= p.bounds[s].second);
+    std::int64_t elsewhere_at_least = 0;
+    std::int64_t elsewhere_at_most = 0;
+    for (std::size_t t = 0; t < p.slots; ++t)
+      if (t != s) elsewhere_at_least += p.bounds[t].first, elsewhere_at_most += p.bounds[t].second;
+    RC_ASSERT(solver.bounds(s).lower <= std::max<std::int64_t>(p.bounds[s].first, n - elsewhere_at_most));
+    RC_ASSERT(solver.bounds(s).upper >= std::min<std::int64_t>(p.bounds[s].second, n - elsewhere_at_least));
   }
 }
 
@@ -158,6 +164,7 @@ void agree_with_glpk(problem const& p, additive_solver& solver, shares& s) {
   RC_ASSERT(got.utility == *expected);
   RC_ASSERT(valid_total(p, slots_of(solver)) == expected);
   RC_ASSERT(proven(p, solver) == static_cast<long double>(*expected));
+  check_bounds(p, solver);
 }
 
 TEST(additive_solver, is_as_good_as_glpk) {
@@ -199,6 +206,7 @@ TEST(additive_solver, warm_is_cold) {
         if (!got.found()) continue;
         RC_ASSERT(slots_of(warm) == slots_of(cold));
         RC_ASSERT(proven(p, warm) == static_cast<long double>(got.utility));
+        check_bounds(p, warm);
       }
     }));
     EXPECT_GE(s.warm * 100, s.cases * 20) << f.agents;

@@ -6,5 +6,6 @@
 namespace determinism_test {
 
 TEST(best_allocation, is_the_same_from_every_compiler) { EXPECT_EQ(digest::compute(), digest::expected); }
+TEST(pairwise, is_the_same_from_every_compiler) { EXPECT_EQ(digest::compute_of_pairs(), digest::expected_of_pairs); }
 
 }  // namespace determinism_test

@@ -4,11 +4,13 @@
 
 #include <rota/search/best_allocation.hpp>
 #include <rota/search/general.hpp>
+#include <rota/search/reallocate.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -341,6 +343,32 @@ TEST(best_allocation, reports_a_lying_bound_with_the_partial_allocation) {
   EXPECT_EQ(odd_tasks(s.atoms.atoms()), s.utility) << "what it returns is valid all the same";
 }
 
+TEST(reallocate, passes_on_what_a_search_complains_of) {
+  auto d = three_tasks();
+  d.utility = rota::general_utility<names, rota::no_beliefs>{
+      [](auto, view_t c) { return c.size() == 5 ? std::nan("") : odd_tasks(c); },
+      [](auto, view_t, rest_t rest) { return rest.empty() ? 3.0 : 0.5; }};
+  team_of team(5);
+  auto const ask = [&] {
+    auto const type = rota::plan_type<names>::make({}, {plan_t::make(d).value()}).value();
+    return reallocate(rota::problem{type, team.members, rota::no_beliefs{}}, {}, {}, team.space, {.audit = true});
+  };
+  auto const some = ask();
+  EXPECT_TRUE(some.plan);
+  EXPECT_FALSE(some.optimal);
+  ASSERT_TRUE(some.lie);
+  EXPECT_EQ(some.lie->bound, 0.5);
+  ASSERT_TRUE(some.ignored);
+  EXPECT_EQ(some.ignored->why, rota::utility_fault::not_a_number);
+  d.utility = rota::general_utility<names, rota::no_beliefs>{[](auto, view_t) { return -1.0; },
+                                                             [](auto, view_t, rest_t) { return -2.0; }};
+  auto const none = ask();
+  EXPECT_FALSE(none.plan);
+  EXPECT_EQ(none.reason, rota::reallocation_reason::search_incomplete);
+  ASSERT_TRUE(none.lie);
+  EXPECT_EQ(none.lie->value, -1.0);
+}
+
 TEST(best_allocation, says_how_far_it_may_be_from_the_optimum) {
   auto d = three_tasks();
   d.utility = rota::general_utility<names, rota::no_beliefs>{[](auto, view_t c) { return odd_tasks(c); },
@@ -354,6 +382,56 @@ TEST(best_allocation, says_how_far_it_may_be_from_the_optimum) {
   auto const some = team.solve(d, {.nodes = 7});
   EXPECT_FALSE(some.optimal);
   EXPECT_EQ(some.gap, 3.0 - some.utility);
+}
+
+TEST(best_allocation, that_is_stopped_at_once_has_an_answer_all_the_same) {
+  auto d = three_tasks();
+  d.utility = rota::general_utility<names, rota::no_beliefs>{[](auto, view_t c) { return odd_tasks(c); },
+                                                             [](auto, view_t, rest_t) { return 3.0; }};
+  auto const at_once = [] { return true; };
+  rota::search_budget none;
+  none.stop = at_once;
+  team_of team(5);
+  for (auto const& budget : {none, rota::search_budget{.nodes = 0}}) {
+    auto const s = team.solve(d, budget);
+    EXPECT_EQ(s.work.nodes, 0u);
+    EXPECT_FALSE(s.optimal);
+    EXPECT_EQ(s.gap, 3.0 - s.utility);
+    EXPECT_EQ(odd_tasks(s.atoms.atoms()), s.utility);
+  }
+  // And it is no worse than what runs, if that is valid.
+  auto const type = rota::plan_type<names>::make({}, {plan_t::make(d).value()}).value();
+  rota::problem<names, rota::no_beliefs> p{type, team.members, rota::no_beliefs{}};
+  rota::allocation_atoms<names> runs;
+  for (int a = 0; a < 3; ++a) runs.insert({names::agent(a + 1), {}, names::task(2 - a)});
+  p.current = runs.atoms();
+  auto const s = best_allocation(p, team.space, none);
+  ASSERT_TRUE(s);
+  EXPECT_EQ(s->utility, 3.0);
+  EXPECT_EQ(s->atoms, runs);
+}
+
+TEST(tree_solver, a_bound_that_denies_what_is_known_lies) {
+  int lies = 0;
+  EXPECT_TRUE(rc::check([&] {
+    dice d(*small_world::any_seed().as("seed"));
+    setting s(d, 5, 3);
+    s.asked.slack = -1 - d.below(3);
+    s.explore();
+    if (degenerate(s) || s.best == nothing || s.in.agents < 2) return;
+    auto const known = s.first();
+    tree_solver solver;
+    tree_options options;
+    options.known = known;
+    options.known_value = s.best;
+    auto const got = solver.solve(s.in, s.asked, options);
+    RC_ASSERT(got.lie);
+    RC_ASSERT(got.lie->bound < got.lie->value);
+    RC_ASSERT(s.asked.value(solver.refuter()) == got.lie->value);
+    RC_ASSERT(s.asked.bound(solver.refuter().first(got.lie->depth), 0) == got.lie->bound);
+    ++lies;
+  }));
+  EXPECT_GE(lies, 200);
 }
 
 TEST(best_allocation, leaves_what_an_outlook_calls_impossible) {
@@ -387,6 +465,31 @@ TEST(best_allocation, interchangeable_agents_cost_little) {
   EXPECT_EQ(seeing.atoms, blind.atoms);
   EXPECT_EQ(seeing.utility, 3.0);
   EXPECT_LT(seeing.work.nodes * 100, blind.work.nodes);
+}
+
+TEST(best_allocation, branch_and_bound_in_a_steady_loop_allocates_nothing) {
+  auto d = three_tasks();
+  double more = 0;
+  d.utility = rota::weighted_sum<names, rota::no_beliefs>{
+      {1, rota::additive_utility<names, rota::no_beliefs>{[&more](auto a, auto t, auto) {
+         return more * static_cast<int>(a) + static_cast<int>(t);
+       }}},
+      {2, rota::general_utility<names, rota::no_beliefs>{[](auto, view_t c) { return odd_tasks(c); },
+                                                         [](auto, view_t, rest_t) { return 3.0; }}}};
+  d.precondition = [](auto, view_t c) { return c.size() != 3; };
+  auto const type = rota::plan_type<names>::make({}, {plan_t::make(d).value()}).value();
+  team_of team(8);
+  rota::allocation_atoms<names> runs;
+  auto const tick = [&](double u) {
+    more = u;
+    auto const next = reallocate(rota::problem{type, team.members, rota::no_beliefs{}}, runs, {}, team.space);
+    EXPECT_GT(next.work.nodes, 0u);
+    runs = next.atoms;
+  };
+  tick(1);
+  auto const before = rota_test::allocation_count();
+  for (int i = 0; i < 20; ++i) tick(i % 5);
+  EXPECT_EQ(rota_test::allocation_count(), before);
 }
 
 TEST(best_allocation, a_utility_that_throws_leaves_the_workspace_usable) {

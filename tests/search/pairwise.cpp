@@ -653,6 +653,74 @@ TEST(pairwise, sixty_four_agents_fit_and_stop_when_told) {
   EXPECT_EQ(accounted(s, p), power(8, 64));
 }
 
+// A pair that many tables forbid is as far away as one that a single table forbids, not so far that sums come round again.
+TEST(pairwise, forbidden_often_is_forbidden) {
+  problem p;
+  p.agents = 3;
+  p.slots = 2;
+  p.unary.assign(6, 1);
+  p.bounds.assign(2, {0, 3});
+  for (int i = 0; i < 1 << 13; ++i) p.tables.push_back({0, 1, {absent, 0, 0, absent}});
+  pairwise_solver s;
+  for (std::uint64_t const enumerated : {2048u, 0u}) {
+    s.effort.enumerate_up_to = enumerated;
+    auto const got = s.solve(p.view());
+    ASSERT_TRUE(got.complete && got.found);
+    EXPECT_EQ(got.value, 3);
+    EXPECT_EQ(chosen(s), (choice{0, 1, 0}));
+  }
+}
+
+// Where anybody may idle there are thousands of ways to fill the slots, and bounds by counts are worth their while.
+TEST(pairwise, room_for_everybody_in_one_slot_does_not_undo_the_bounds) {
+  problem p = dense_problem(3, 18, 5);
+  for (auto& b : p.bounds) b = {0, 6};
+  p.bounds.back().upper = 18;
+  for (std::size_t a = 0; a < p.agents; ++a) p.unary[(a + 1) * p.slots - 1] = 0;
+  for (table& t : p.tables)
+    for (std::size_t x = 0; x < p.slots; ++x)
+      t.worth[x * p.slots + p.slots - 1] = t.worth[(p.slots - 1) * p.slots + x] = 0;
+  pairwise_solver s;
+  auto const got = s.solve(p.view());
+  ASSERT_TRUE(got.complete);
+  EXPECT_EQ(value_of(p, chosen(s)), got.value);
+  auto const best = chosen(s);
+  s.effort.exact_suffix = 0;
+  auto const without = s.solve(p.view());
+  ASSERT_TRUE(without.complete);
+  EXPECT_EQ(without.value, got.value);
+  EXPECT_EQ(chosen(s), best);
+  EXPECT_LT(4 * got.nodes, without.nodes);
+}
+
+// Getting ready is work as well: for twenty agents more than half a tick.
+TEST(pairwise, may_be_stopped_before_there_is_anything_to_search) {
+  problem large = dense_problem(1, 20, 5);
+  for (auto& b : large.bounds) b.upper = 5;
+  pairwise_solver s;
+  auto const at_once = s.solve(large.view(), ~std::uint64_t{0}, [] { return true; });
+  EXPECT_TRUE(at_once.found);
+  EXPECT_LE(at_once.nodes, 5000u);
+
+  problem const p = dense_problem(2, 14, 4);
+  auto const best = s.solve(p.view());
+  ASSERT_TRUE(best.complete);
+  auto const chosen_then = chosen(s);
+  int stopped = 0;
+  for (int patience = 0; patience < 60; ++patience) {
+    int polls = 0;
+    auto const got = s.solve(p.view(), ~std::uint64_t{0}, [&] { return ++polls > patience; });
+    ASSERT_TRUE(got.found) << patience;
+    EXPECT_EQ(value_of(p, chosen(s)), got.value) << patience;
+    EXPECT_LE(got.value, best.value) << patience;
+    EXPECT_GE(got.bound, best.value) << patience;
+    EXPECT_EQ(accounted(s, p), power(4, 14)) << patience;
+    EXPECT_TRUE(!got.complete || chosen(s) == chosen_then) << patience;
+    stopped += !got.complete;
+  }
+  EXPECT_GE(stopped, 15);
+}
+
 TEST(pairwise, kernels_for_this_machine_do_what_the_portable_ones_do) {
   using namespace rota::dense::detail;
   EXPECT_TRUE(rc::check([&] {

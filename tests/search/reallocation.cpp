@@ -95,6 +95,11 @@ TEST(reallocate, keeps_what_is_valid_and_good_enough) {
       RC_ASSERT(got.reason == expected.why);
       RC_ASSERT(to_facts(got.atoms) == expected.atoms);
       RC_ASSERT(got.optimal);
+      auto known = problem;
+      known.current = before.atoms();
+      auto same = reallocate(problem, before, h, best_allocation(known, work));
+      same.work = got.work;
+      RC_ASSERT(same == got);
       RC_ASSERT(got.event == rota::difference(before, got.atoms));
       RC_ASSERT(rota::apply(got.event, before).value() == got.atoms);
       if (got.plan) {
@@ -168,7 +173,14 @@ TEST(reallocate, a_spent_budget_keeps_a_valid_allocation_and_says_so) {
   EXPECT_FALSE(kept.optimal);
   EXPECT_TRUE(kept.event.empty());
   EXPECT_LE(kept.work.nodes, 10u);
-  auto const stopped = reallocate(problem, atoms_t{{names::agent(0), names::plan(1), names::task(0)}}, {}, work, {3});
+  atoms_t const invalid{{names::agent(0), names::plan(1), names::task(0)}};
+  auto const replaced = reallocate(problem, invalid, {}, work, {0});
+  EXPECT_EQ(replaced.reason, reason::current_invalid);
+  EXPECT_FALSE(replaced.optimal);
+  EXPECT_TRUE(replaced.plan);
+  raw.plans[0].pre = truth::never;
+  built const c(raw);
+  auto const stopped = reallocate(rota::problem{c.type, c.team, c.beliefs}, invalid, {}, work, {3});
   EXPECT_EQ(stopped.reason, reason::search_incomplete);
   EXPECT_TRUE(stopped.atoms.empty());
   EXPECT_FALSE(stopped.plan);

@@ -3,6 +3,7 @@
 
 #include <rota/search/best_allocation.hpp>
 #include <rota/search/print.hpp>
+#include <rota/search/reallocate.hpp>
 
 #include <gtest/gtest.h>
 
@@ -138,6 +139,72 @@ TEST(no_allocation, what_is_no_utility_is_named) {
   g.plan().offset = std::numeric_limits<double>::infinity();
   EXPECT_EQ(g.refusal().why, reason::utility_refused);
   EXPECT_EQ(g.refusal().fault, rota::utility_fault::positive_infinity);
+}
+
+/// Plans whose tasks are worth the same to everybody.
+struct great {
+  using V = rota::runtime_vocabulary;
+  static rota::plan<V> plan_of(std::uint64_t id, std::uint64_t tasks, double worth) {
+    rota::plan_description<V, rota::no_beliefs> d;
+    d.plan = {id};
+    for (std::uint64_t t = 0; t < tasks; ++t) d.tasks.push_back({{t}, {}, {}});
+    d.utility = rota::additive_utility<V, rota::no_beliefs>([worth](auto, auto, auto) { return worth; });
+    return rota::plan<V>::make(std::move(d)).value();
+  }
+  static rota::team<V> team_of(std::uint64_t agents) {
+    rota::team<V> team;
+    for (std::uint64_t a = 0; a < agents; ++a) team.add({a});
+    return team;
+  }
+};
+
+// Valid by the definition, but not searched: so nothing is proved about such a plan.
+TEST(no_allocation, utilities_too_great_for_so_many_tasks_prove_nothing) {
+  using V = great::V;
+  auto const modest = great::plan_of(1, 2, 1);
+  auto const much = great::plan_of(2, 50, rota::max_utility);
+  auto const team = great::team_of(2);
+  rota::no_beliefs const beliefs;
+  rota::workspace work;
+  auto const alone = rota::plan_type<V>::make({}, {much}).value();
+  rota::problem const hopeless{alone, team, beliefs};
+  auto const none = best_allocation(hopeless, work);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().plans[0].why, reason::utilities_too_great);
+  EXPECT_EQ(none.error().plans[0].fault, rota::utility_fault::out_of_range);
+  EXPECT_FALSE(rota::describe(none.error().plans[0]).empty());
+  EXPECT_FALSE(none.error().proved());
+  auto const kept = reallocate(hopeless, rota::allocation_atoms<V>{}, {}, work);
+  EXPECT_EQ(kept.reason, rota::reallocation_reason::kept_unproved);
+  EXPECT_FALSE(kept.optimal);
+
+  auto const both = rota::plan_type<V>::make({}, {modest, much}).value();
+  auto const some = best_allocation(rota::problem{both, team, beliefs}, work);
+  ASSERT_TRUE(some);
+  EXPECT_EQ(some->utility, 2);
+  EXPECT_FALSE(some->optimal) << "the other plan is worth far more";
+  EXPECT_EQ(some->gap, std::numeric_limits<double>::infinity());
+
+  auto const fewer = great::plan_of(2, 25, rota::max_utility);
+  auto const within = rota::plan_type<V>::make({}, {modest, fewer}).value();
+  auto const best = best_allocation(rota::problem{within, team, beliefs}, work);
+  ASSERT_TRUE(best);
+  EXPECT_TRUE(best->optimal);
+  EXPECT_EQ(best->utility, 2 * rota::max_utility);
+}
+
+// What each agent gains by moving is what moving costs it, so objectives are 0 where utilities sum to more than 64 bits hold.
+TEST(no_allocation, change_costs_count_in_what_is_summed_exactly) {
+  using V = great::V;
+  auto const type = rota::plan_type<V>::make({}, {great::plan_of(1, 1, rota::max_utility)}).value();
+  auto const team = great::team_of(9000);
+  rota::no_beliefs const beliefs;
+  rota::workspace work;
+  rota::problem problem{type, team, beliefs, rota::idling::forbidden};
+  problem.change_cost = rota::max_utility;
+  auto const none = best_allocation(problem, work);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().plans[0].why, reason::utilities_too_great);
 }
 
 TEST(no_allocation, functions_that_throw) {

@@ -55,7 +55,8 @@ template <vocabulary V, class Beliefs>
   return m;
 }
 
-/// The additive utility that a matrix holds; agents and tasks outside it, and entries that are not finite, are forbidden.
+/// The additive utility that a matrix holds; agents and tasks outside it, and NaN entries, are forbidden. Infinities are no
+/// utilities, and named where they are counted.
 ///
 /// @param agents, tasks what the rows and columns stand for, in any order, each once
 /// @pre as many agents as rows, as many tasks as columns
@@ -87,7 +88,7 @@ template <vocabulary V, class Beliefs = no_beliefs, class Derived>
     };
     auto const row = find(t->rows, a);
     auto const column = find(t->columns, task);
-    if (!row || !column || !std::isfinite(t->values(*row, *column))) return std::nullopt;
+    if (!row || !column || std::isnan(t->values(*row, *column))) return std::nullopt;
     return t->values(*row, *column);
   };
 }

@@ -21,7 +21,7 @@ namespace rota {
 /// If the budget runs out, the best valid allocation found, and by how much it may be worse than the optimum. A general
 /// utility whose bound was seen to lie proves nothing either: `solution::lie`.
 /// Errors: one `plan_refusal` per plan. For n agents and t tasks, n·max|u| is at most 2^40 and (t + 3)·max|u| at most 2^35,
-/// otherwise `utility_refused`.
+/// otherwise `utilities_too_great`, change costs counted in |u|.
 /// Complexity, per plan: additive O(n·t) calls, and O(t²) for each of at most n + t searches, fewer where little has changed
 /// since the workspace saw the plan last; otherwise branch and bound within `budget`, which the plans share equally, what one
 /// leaves going to the next. Memory O(n·t + t²), in the workspace; nothing else is allocated for up to 8 agents and 2
@@ -67,6 +67,8 @@ template <vocabulary V, class Beliefs>
   }
   if (winner == nullptr) {
     none.work = best.work;
+    none.ignored = best.ignored;
+    none.lie = std::move(best.lie);
     return refused{std::move(none)};
   }
   best.optimal = bound <= best.objective.units;

@@ -156,7 +156,7 @@ private:
     if (!dense::fits(n, slots, greatest)) {
       refusal_.agent = problem_.participants[greatest_at];
       refusal_.fault = utility_fault::out_of_range;
-      refusal_.why = no_plan_reason::utility_refused;
+      refusal_.why = no_plan_reason::utilities_too_great;
       m.seen = m.solved = m.settled = false;
       return false;
     }
@@ -186,9 +186,9 @@ private:
     auto const now = cost_ != 0 ? current_slot(a) : dense::no_slot;
     std::uint64_t greatest = 0;
     auto const write = [&](std::size_t s, std::int64_t units) {
-      if (s != now) units -= cost_;
-      row_[s] = units;
-      greatest = std::max(greatest, static_cast<std::uint64_t>(units < 0 ? -units : units));
+      // With the cost, so that sums fit both with and without it: what an agent gains by moving may be all its cost.
+      greatest = std::max(greatest, static_cast<std::uint64_t>((units < 0 ? -units : units) + cost_));
+      row_[s] = s != now ? units - cost_ : units;
     };
     for (std::size_t s = 0; s < tasks.size(); ++s) {
       row_[s] = dense::absent;

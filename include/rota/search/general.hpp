@@ -167,6 +167,8 @@ private:
         bound_[depth + 1] = std::min(bound_[depth], oracle.bound(prefix, sum));
         if (out.found && (known_ ? bound_[depth + 1] < out.value : bound_[depth + 1] <= out.value)) {
           leave(out.account.bounded, depth + 1, out);
+          if (known_ && std::equal(prefix.begin(), prefix.end(), best_.begin()))
+            compare(best_, out.value, depth + 1, out);
           if (options.audit && !out.lie) audit(in, oracle, depth + 1, sum, out);
         } else {
           ++depth;
@@ -241,7 +243,7 @@ private:
     auto const worthless = known_ ? out.value - 1 : out.value;
     auto const value = oracle.leaf(assignment_, sum, out.found ? std::optional{worthless} : std::nullopt);
     if (!value) return;
-    compare(*value, assignment_.empty() ? 0 : assignment_.size() - 1, out);
+    compare(assignment_, *value, assignment_.empty() ? 0 : assignment_.size() - 1, out);
     if (out.found && *value <= worthless) return;
     known_ = false;
     out.found = true;
@@ -249,13 +251,13 @@ private:
     std::copy(assignment_.begin(), assignment_.end(), best_.begin());
   }
 
-  /// A value found below the first `depth` agents must not exceed what was said of any of them.
-  void compare(std::int64_t value, std::size_t depth, tree_outcome& out) {
+  /// The value of an assignment must not exceed what was said of its first agents, up to `depth` of them.
+  void compare(std::span<slot const> assignment, std::int64_t value, std::size_t depth, tree_outcome& out) {
     if (value <= bound_[depth] || out.lie) return;
     depth = 0;
     while (bound_[depth] >= value) ++depth;
     out.lie = refuted_bound{depth, bound_[depth], value};
-    std::copy(assignment_.begin(), assignment_.end(), refuter_.begin());
+    std::copy(assignment.begin(), assignment.end(), refuter_.begin());
   }
 
   /// Completes the prefix somehow, where slots that still need agents come first.
@@ -276,7 +278,7 @@ private:
       }
     }
     if (a == in.agents)
-      if (auto const value = oracle.probe(assignment_, sum)) compare(*value, depth, out);
+      if (auto const value = oracle.probe(assignment_, sum)) compare(assignment_, *value, depth, out);
     while (a-- > depth) undo(a);
   }
 

@@ -30,14 +30,15 @@ namespace rota::dense {
 /// bound (`pairwise_search`) adds to these what the unplaced get from the placed at best, slots having prices
 /// (`price_table`). Ties are settled only where bounds do not exclude them.
 ///
-/// Memory O(n²·m² + states·(m + final counts)), at most some 10 MB for n ≤ 20, m ≤ 8; recursion at most n + m deep.
+/// Memory O(n²·m²), at most 45 MB (1 MB for n ≤ 20, m ≤ 8), and bounds by counts in tables of fixed size, at most 75 MB.
+/// Recursion at most n + m deep.
 class pairwise_solver {
 public:
   /// How the work is divided. It changes no answer that is complete.
   pairwise_effort effort;
 
   /// Searches until the canonical optimum is proved, about `budget` nodes have been tried, or stop() says so, which is
-  /// asked every few thousand nodes. See `no_observer` for what an observer hears.
+  /// asked every few hundred nodes, and now and then before there are any. See `no_observer` for what an observer hears.
   ///
   /// @return found = false and complete = true iff no assignment is valid
   /// @pre the preconditions of `pairwise_instance`
@@ -55,13 +56,13 @@ public:
       out.found = small_.solve(in, best_.assignment, out.value, out.nodes, tallies_, observer);
       return complete(out, out.value);
     }
-    if (!start(in, budget)) {
+    if (!start(in, budget, stop)) {
       ++tallies_[0].by_cardinality;
       if constexpr (!std::is_same_v<Observer, no_observer>)
         observer(std::span<slot const>(best_.assignment), pairwise_cut::cardinality, detail::pairwise_model::nothing);
       return complete(out, 0);
     }
-    bound_suffixes(budget);
+    bound_suffixes(budget, stop);
     search_.prepare(model_, suffix_, prices_, lower_, upper_);
     std::uint64_t const spent = suffix_.work();
     std::uint64_t const left = budget - std::min(budget, spent);
@@ -110,7 +111,8 @@ private:
   }
 
   /// A first assignment, made better. @return false if the bounds of the slots cannot be met
-  bool start(pairwise_instance const& in, std::uint64_t budget) {
+  template <class Stop>
+  bool start(pairwise_instance const& in, std::uint64_t budget, Stop& stop) {
     std::size_t const n = in.agents;
     lower_.resize(in.slots());
     upper_.resize(in.slots());
@@ -124,7 +126,7 @@ private:
     if (additive_.solve(alone).end != additive_end::optimal) return false;
     std::copy(additive_.assignment().begin(), additive_.assignment().end(), best_.assignment.begin());
     std::size_t const rounds = static_cast<std::size_t>(std::min<std::uint64_t>(n, budget / n));
-    best_.value = local_.improve(model_, in.bounds, best_.assignment, rounds);
+    best_.value = local_.improve(model_, in.bounds, best_.assignment, rounds, stop);
     best_.found = best_.value > detail::pairwise_model::nothing;
     if (!best_.found) best_.value = detail::pairwise_model::nothing;
     sort_twins();
@@ -140,16 +142,17 @@ private:
           std::swap(best_.assignment[a], best_.assignment[b]);
   }
 
-  void bound_suffixes(std::uint64_t budget) {
+  template <class Stop>
+  void bound_suffixes(std::uint64_t budget, Stop& stop) {
     using detail::price_table;
     std::size_t const n = model_.agents();
     auto plan = detail::suffix_plan::fitting(n, upper_.size(), budget / 4);
     if (effort.exact_suffix != pairwise_effort::automatic) plan.exact = effort.exact_suffix;
     if (effort.bounded_suffix != pairwise_effort::automatic) plan.beyond = effort.bounded_suffix;
     if (upper_.size() > price_table::most_slots || !detail::count_space::fits(upper_.size(), n) ||
-        price_table::number_of_finals(lower_, upper_, n) > price_table::most_finals)
+        price_table::number_of_finals(lower_, upper_, n) > price_table::most_finals(n))
       plan = {};
-    suffix_.prepare(model_, upper_, plan);
+    suffix_.prepare(model_, upper_, plan, stop);
     if (suffix_.counted(n)) prices_.prepare(model_, suffix_, lower_, upper_);
   }
 

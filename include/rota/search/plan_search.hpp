@@ -80,7 +80,8 @@ private:
     outcome out;
     out.refusal = form_.refusal();
     out.refusal.plan = plan_.id();
-    out.bound = std::numeric_limits<std::int64_t>::min();
+    bool const searched = out.refusal.why != no_plan_reason::utilities_too_great;
+    out.bound = searched ? std::numeric_limits<std::int64_t>::min() : dense::no_bound;
     return out;
   }
   outcome refuse(no_plan_reason why) {
@@ -206,6 +207,7 @@ private:
     if (!coupled() && first.end == dense::additive_end::optimal && form_.change_cost() == 0)
       options.enough = first.utility;
     if (find_twins(in)) options.twin = work_.twin;
+    begin_with(in, options);
     auto const tree = work_.tree.solve(in, *this, options);
     done.nodes += tree.account.nodes;
     done.leaves += tree.account.leaves;
@@ -231,6 +233,34 @@ private:
     if (most_negative_) return negative(*most_negative_);
     if (coupling_fault_) return coupling_refused();
     return refuse(precondition_threw_ ? no_plan_reason::precondition_threw : no_plan_reason::precondition_never_holds);
+  }
+
+  /// Something to begin with, so that even a search that is stopped at once has an answer: what is best for agents alone, or
+  /// what the team does now, if that is admissible.
+  void begin_with(dense::instance const& in, dense::tree_options& options) {
+    auto const offer = [&](std::span<dense::slot const> x) {
+      auto const sum = sum_within_bounds(in, x);
+      if (!sum) return;
+      auto const value = probe(x, *sum);
+      if (!value || (!options.known.empty() && *value <= options.known_value)) return;
+      options.known = x;
+      options.known_value = *value;
+    };
+    if (coupled()) offer(memory_.solver.assignment());  // otherwise it has been tried
+    if (!problem_.current.empty()) offer(work_.now);
+  }
+  /// The additive utility of an assignment within all bounds.
+  static std::optional<std::int64_t> sum_within_bounds(dense::instance const& in, std::span<dense::slot const> x) {
+    std::int64_t sum = 0;
+    for (std::size_t a = 0; a < x.size(); ++a) {
+      if (x[a] == dense::no_slot || !in.present(a, x[a])) return std::nullopt;
+      sum += in.at(a, x[a]);
+    }
+    for (std::size_t s = 0; s < in.slots(); ++s) {
+      auto const count = static_cast<std::size_t>(std::count(x.begin(), x.end(), s));
+      if (count < in.bounds[s].lower || count > in.bounds[s].upper) return std::nullopt;
+    }
+    return sum;
   }
 
   outcome coupling_refused() {

@@ -28,7 +28,9 @@ template <vocabulary V, class Names = numbered>
   case no_plan_reason::precondition_never_holds: return "the precondition holds on no allocation";
   case no_plan_reason::precondition_threw: return "the precondition threw";
   case no_plan_reason::negative_utility: return "the best utility is " + std::to_string(r.value) + ", below 0";
-  case no_plan_reason::search_incomplete: return "the search budget ran out before a valid allocation was found";
+  case no_plan_reason::utilities_too_great:
+    return "the utilities of agent " + name(r.agent) + " are too great to be summed exactly";
+  case no_plan_reason::search_incomplete: return "the search ended before a valid allocation was found";
   }
   return "?";
 }

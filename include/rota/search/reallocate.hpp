@@ -16,9 +16,9 @@ enum class reallocation_reason : unsigned char {
   current_invalid,      ///< the current one is not valid (any more); the best is adopted
   kept_optimal,         ///< nothing is better than the current one, proved
   kept_hysteresis,      ///< something is better, by no more than the margin and what the changes cost
-  kept_unproved,        ///< the budget ran out, and nothing found beats the current one
+  kept_unproved,        ///< nothing found beats the current one, but not all was searched: see `solution::optimal`
   no_valid_allocation,  ///< proved; the allocation becomes ∅
-  search_incomplete  ///< the current one is not valid, and the budget ran out before a valid one was found; becomes ∅
+  search_incomplete     ///< the current one is not valid, and none was found, but not all was searched; becomes ∅
 };
 
 /// What to do now: `event` leads from the current allocation to `atoms`.
@@ -34,6 +34,8 @@ struct reallocation {
   bool optimal = false;          ///< no valid allocation is better than the best one found
   double gap = 0;                ///< no valid allocation is better than the best one found by more than this
   search_work work{};
+  std::optional<utility_refusal<V>> ignored{};  ///< see `solution`; of all plans if there is no valid allocation
+  std::optional<bound_lie<V>> lie{};            ///< likewise
 
   friend bool operator==(reallocation const&, reallocation const&) = default;
 };
@@ -85,32 +87,19 @@ template <vocabulary V>
 
 }  // namespace detail
 
-/// Decides whether to keep the current allocation, and if not, which one to adopt; under one's own beliefs only.
-///
-/// What is best is judged with `current` in the place of `problem::current`: less `problem::change_cost` for each participant
-/// that would do something else, and with a bonus for staying where U_p has a part `similarity`. The current one is kept
-/// iff it is valid and nothing beats it by more than h (see `hysteresis`); among equals nothing changes. C = ∅ names no
-/// plan, so none is running: it counts as the best plan for which it is valid, preconditions are asked as on entry, and the
-/// plan's own hysteresis is 0. Otherwise every plan that occurs in C is running, and `precondition_scope::entry_only` is not
-/// asked of it.
-/// Where no valid allocation exists the team has none: the event subtracts every atom. That is honest (each atom would
-/// claim a validity the agent does not believe in), and the next call with a satisfiable problem starts as `first`.
-///
-/// Laws: event = difference(current, atoms), so it is applicable at `current`. Calling again with `atoms` and unchanged
-/// beliefs gives the empty event, unless `atoms` entered a plan whose precondition is `entry_only`: then it may move on to
-/// an allocation that could not have been entered.
-/// Complexity: `best_allocation`, and one evaluation of the current allocation.
+/// As `reallocate` below, where the best is known: what `best_allocation` found with `current` as `problem::current`.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] reallocation<V> reallocate(problem<V, Beliefs> const& problem, allocation_atoms<V> const& current,
-                                         hysteresis h, workspace& work, search_budget budget = {}) {
+                                         hysteresis h, result<solution<V>, no_allocation<V>> best) {
   reallocation<V> next;
   auto here = problem;
   here.current = current.atoms();
   auto const now = detail::standing_of(here, current);
-  auto best = best_allocation(here, work, budget);
   next.optimal = best ? best->optimal : best.error().proved();
   next.gap = best ? best->gap : 0;
   next.work = best ? best->work : best.error().work;
+  next.ignored = best ? best->ignored : best.error().ignored;
+  next.lie = best ? std::move(best->lie) : best.error().lie;
   if (now && best) next.gain = to_double({best->objective.units - now->utility.units});
 
   if (now && (!best || !beats(best->objective, now->utility, detail::margin_over(*now, h)))) {
@@ -135,6 +124,29 @@ template <vocabulary V, class Beliefs>
   }
   next.event = difference(current, next.atoms);
   return next;
+}
+
+/// Decides whether to keep the current allocation, and if not, which one to adopt; under one's own beliefs only.
+///
+/// What is best is judged with `current` in the place of `problem::current`: less `problem::change_cost` for each participant
+/// that would do something else, and with a bonus for staying where U_p has a part `similarity`. The current one is kept
+/// iff it is valid and nothing beats it by more than h (see `hysteresis`); among equals nothing changes. C = ∅ names no
+/// plan, so none is running: it counts as the best plan for which it is valid, preconditions are asked as on entry, and the
+/// plan's own hysteresis is 0. Otherwise every plan that occurs in C is running, and `precondition_scope::entry_only` is not
+/// asked of it.
+/// Where no valid allocation exists the team has none: the event subtracts every atom. That is honest (each atom would
+/// claim a validity the agent does not believe in), and the next call with a satisfiable problem starts as `first`.
+///
+/// Laws: event = difference(current, atoms), so it is applicable at `current`. Calling again with `atoms` and unchanged
+/// beliefs gives the empty event, unless `atoms` entered a plan whose precondition is `entry_only`: then it may move on to
+/// an allocation that could not have been entered.
+/// Complexity: `best_allocation`, and one evaluation of the current allocation.
+template <vocabulary V, class Beliefs>
+[[nodiscard]] reallocation<V> reallocate(problem<V, Beliefs> const& problem, allocation_atoms<V> const& current,
+                                         hysteresis h, workspace& work, search_budget budget = {}) {
+  auto here = problem;
+  here.current = current.atoms();
+  return reallocate(here, current, h, best_allocation(here, work, budget));
 }
 
 }  // namespace rota

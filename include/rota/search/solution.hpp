@@ -41,8 +41,10 @@ struct solution {
   fixed_utility exact{};      ///< the same, for comparisons
   fixed_utility objective{};  ///< the same less change costs: what was maximised
   std::size_t changes = 0;    ///< participants who do something else than in `problem::current`
-  bool optimal = false;       ///< proved: no valid allocation of any plan is better; false only if the budget ran out
-  double gap = 0;             ///< no valid allocation is better by more than this; 0 if optimal
+  /// Proved: no valid allocation of any plan is better. False only if the budget ran out, a bound lied, or the utilities of
+  /// another plan were too great.
+  bool optimal = false;
+  double gap = 0;  ///< no valid allocation is better by more than this; 0 if optimal
   search_work work{};
   std::optional<rota::runner_up<V>> runner_up{};
   /// The first term or total left out because it is no utility (NaN, ±∞, out of range, threw). Allocations that need it
@@ -66,7 +68,8 @@ enum class no_plan_reason : unsigned char {
   precondition_never_holds,  ///< Pre(p) is false on every allocation that is valid otherwise
   precondition_threw,        ///< and so does no admissible allocation remain
   negative_utility,          ///< U_p is at most `value` < 0 on every allocation: clause (6)
-  search_incomplete          ///< the budget ran out, or a bound lied, before a valid allocation was found
+  search_incomplete,         ///< the budget ran out, or a bound lied, before a valid allocation was found
+  utilities_too_great  ///< those of `agent`, for so many agents and tasks: beyond what is summed exactly, so not searched
 };
 
 /// Why one plan yields nothing, with its witness. Fields a reason does not mention keep their default.
@@ -89,11 +92,13 @@ template <vocabulary V = runtime_vocabulary>
 struct no_allocation {
   small_vector<plan_refusal<V>, 2> plans;  ///< one per plan, ascending
   search_work work{};
+  std::optional<utility_refusal<V>> ignored{};  ///< as in `solution`
+  std::optional<bound_lie<V>> lie{};            ///< likewise: then there may be a valid allocation
 
   /// Whether this is a proof that there is none.
   [[nodiscard]] constexpr bool proved() const noexcept {
     for (auto const& p : plans)
-      if (p.why == no_plan_reason::search_incomplete) return false;
+      if (p.why == no_plan_reason::search_incomplete || p.why == no_plan_reason::utilities_too_great) return false;
     return true;
   }
 

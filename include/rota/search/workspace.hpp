@@ -30,11 +30,11 @@ struct plan_memory {
   bool settled = false;              ///< whether both still hold
 };
 
-/// Buffers that searches reuse, so that a steady loop allocates nothing and begins where it ended. An answer never depends
+/// Buffers that searches reuse, so that solving allocates nothing in a steady loop and begins where it ended. An answer never depends
 /// on it: optima are canonical.
 ///
 /// Grows to O(n·t + t²) integers a plan for the largest problem it met, n agents and t tasks, and O(n²·t²) where utilities
-/// are pairwise. One per thread.
+/// are pairwise; for these a solver besides, with up to 120 MB (see `dense::pairwise_solver`). One per thread.
 class workspace {
 public:
   std::vector<plan_memory> plans;  ///< by their order in the plan type

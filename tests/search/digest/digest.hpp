@@ -2,6 +2,7 @@
 /// @file
 /// Many allocations boiled down to one number, which must be the same whatever compiled and ran the program.
 
+#include <rota/search/pairwise.hpp>
 #include <rota/search/reallocate.hpp>
 
 #include <cstdint>
@@ -14,6 +15,9 @@ namespace digest {
 
 /// What it must come to.
 inline constexpr std::uint64_t expected = 0x7f8205352524248d;
+
+/// The same of pairwise utilities, large enough for every part of their solver.
+inline constexpr std::uint64_t expected_of_pairs = 0xaae60531eda45f87;
 
 /// SplitMix64: numbers that need no library.
 class stream {
@@ -146,6 +150,44 @@ inline std::uint64_t compute() {
     auto const slots = 1 + r.below(20);
     solve(r, h, agents, slots, i % 3 == 0 ? 4 : i % 3 == 1 ? 1000 : 1u << 30);
   }
+  return h.value();
+}
+
+/// A dense problem of pairs, solved to the end and for a while: the same answer, and as much work.
+inline void couple(stream& r, hash& h, std::size_t agents, std::size_t slots, bool idle) {
+  std::vector<std::int64_t> alone(agents * slots);
+  auto const draw = [&] { return static_cast<std::int64_t>(r.uniform() * rota::fixed_utility::units_per_one); };
+  for (auto& u : alone) u = draw();
+  std::vector<std::vector<std::int64_t>> tables(agents * (agents - 1) / 2);
+  std::vector<rota::dense::coupling> couplings;
+  for (std::uint32_t a = 0; a < agents; ++a)
+    for (std::uint32_t b = a + 1; b < agents; ++b) {
+      auto& table = tables[couplings.size()];
+      for (std::size_t i = 0; i < slots * slots; ++i) table.push_back(draw() - draw());
+      couplings.push_back({a, b, table});
+    }
+  std::vector<rota::dense::slot_bounds> bounds(slots, {0, static_cast<std::uint32_t>((agents + slots - 1) / slots)});
+  if (idle) bounds.back().upper = static_cast<std::uint32_t>(agents);
+  rota::dense::pairwise_solver solver;
+  for (std::uint64_t const nodes : {std::uint64_t{2000}, ~std::uint64_t{0}}) {
+    auto const out = solver.solve({agents, alone, couplings, bounds}, nodes);
+    h.add(out.complete);
+    h.add(static_cast<std::uint64_t>(out.value));
+    h.add(static_cast<std::uint64_t>(out.bound));
+    h.add(out.nodes);
+    for (auto const s : solver.assignment()) h.add(s);
+  }
+}
+
+inline std::uint64_t compute_of_pairs() {
+  stream r(20110302);
+  hash h;
+  for (int i = 0; i < 8; ++i) {
+    auto const agents = 9 + r.below(5);
+    auto const slots = 3 + r.below(3);
+    couple(r, h, agents, slots, i % 2 == 0);
+  }
+  couple(r, h, 18, 4, true);
   return h.value();
 }
 

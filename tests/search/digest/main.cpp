@@ -6,6 +6,7 @@
 
 int main() {
   auto const got = digest::compute();
-  std::printf("%#018" PRIx64 "\n", got);
-  return got == digest::expected ? 0 : 1;
+  auto const of_pairs = digest::compute_of_pairs();
+  std::printf("%#018" PRIx64 " %#018" PRIx64 "\n", got, of_pairs);
+  return got == digest::expected && of_pairs == digest::expected_of_pairs ? 0 : 1;
 }

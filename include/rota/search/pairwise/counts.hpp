@@ -96,17 +96,22 @@ public:
   /// Appends all vectors with lower_s ≤ c_s ≤ upper_s of sum k, in the order of their numbers.
   void list(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper, std::size_t k,
             std::vector<packed_counts>& out) const {
-    list(lower, upper, k, 0, 0, out);
+    std::size_t room = 0;
+    for (std::uint32_t const u : upper) room += u;
+    list(lower, upper, k, room, 0, 0, out);
   }
 
 private:
-  void list(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper, std::size_t k, std::size_t s,
-            packed_counts c, std::vector<packed_counts>& out) const {
+  /// `room`: what slots from s on can hold, so that nothing is begun that they could not take.
+  void list(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper, std::size_t k, std::size_t room,
+            std::size_t s, packed_counts c, std::vector<packed_counts>& out) const {
     if (s + 1 == slots_) {
       if (k >= lower[s] && k <= upper[s]) out.push_back(c + unit(s) * k);
       return;
     }
-    for (std::size_t t = lower[s]; t <= k && t <= upper[s]; ++t) list(lower, upper, k - t, s + 1, c + unit(s) * t, out);
+    room -= upper[s];
+    for (std::size_t t = std::max<std::size_t>(lower[s], k - std::min(k, room)); t <= k && t <= upper[s]; ++t)
+      list(lower, upper, k - t, room, s + 1, c + unit(s) * t, out);
   }
 
   std::size_t slots_ = 0;

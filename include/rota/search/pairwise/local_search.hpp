@@ -16,9 +16,10 @@ namespace rota::dense::detail {
 /// call, so equal inputs give equal assignments. O(n·m) per move, O(n²) to choose one; O(n·m) memory.
 class local_search {
 public:
-  /// Improves an assignment within the bounds. @return its exact value
+  /// Improves an assignment within the bounds; once, if stop() says so. @return its exact value
+  template <class Stop>
   std::int64_t improve(pairwise_model const& model, std::span<slot_bounds const> bounds, std::span<slot> best,
-                       std::size_t rounds) {
+                       std::size_t rounds, Stop& stop) {
     agents_ = model.agents();
     slots_ = model.slots();
     gain_.resize(agents_ * slots_);
@@ -27,6 +28,7 @@ public:
     std::uint64_t random = 20090708;
     std::int64_t value = 0;
     for (std::size_t round = 0; round <= rounds; ++round) {
+      if (round != 0 && stop()) break;
       start(model, best);
       if (round != 0) disturb(model, bounds, random);
       descend(model, bounds);

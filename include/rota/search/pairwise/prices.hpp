@@ -18,12 +18,13 @@ namespace rota::dense::detail {
 ///   value + Σ_{unplaced i} max_s (field_i(s) − π_s) + most(π),   most(π) = max_f best(d)[f − p] + π·(f − p)
 /// over final counts f: a Lagrangian relaxation of "as many want slot s here as take it there". Prices start from the
 /// mean of what the placed give to the unplaced, and are improved on nodes that they fail to cut. They are kept in a
-/// table of fixed size, by hash; a state that was overwritten is made anew. O(states·(slots + final counts)) memory.
+/// table of fixed size, by hash; a state that was overwritten is made anew. O(states·(slots + final counts)) memory, of which
+/// final counts take 64 MB at most.
 class price_table {
 public:
   static constexpr std::size_t most_slots = 16;
-  static constexpr std::size_t most_finals = 1024;
   static constexpr std::size_t most_states = 16384;
+  static constexpr std::size_t most_entries = std::size_t{1} << 24;  // of states, by final counts
   static constexpr std::int32_t impossible = -(1 << 28);
   static constexpr std::int16_t first_credit = 4;
 
@@ -40,7 +41,9 @@ public:
     std::array<std::int32_t, most_slots> most_by{};  ///< with the next agent in that slot, which pays no price
   };
 
-  /// How many final counts there are, or more than `most_finals`.
+  /// So many final counts are worth looking at for so few agents: nodes saved must pay for it.
+  static constexpr std::size_t most_finals(std::size_t agents) { return agents < 18 ? 1024 : 8192; }
+  /// How many final counts there are, or more than `most_finals(agents)`.
   static std::size_t number_of_finals(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper,
                                       std::size_t agents) {
     std::array<std::size_t, max_pairwise_agents + 1> ways{};
@@ -49,7 +52,7 @@ public:
       for (std::size_t r = agents + 1; r-- > 0;) {
         std::size_t sum = 0;
         for (std::size_t t = lower[s]; t <= r && t <= upper[s]; ++t) sum += ways[r - t];
-        ways[r] = std::min(sum, most_finals + 1);
+        ways[r] = std::min(sum, most_finals(agents) + 1);
       }
     return ways[agents];
   }
@@ -75,7 +78,8 @@ public:
       indices_[f] = static_cast<std::uint32_t>(space_->index(finals_[f]));
     numbers_.resize(width_);
     wanted_.resize(slots_);
-    std::size_t const size = std::clamp(std::bit_ceil(2 * suffix.states()), std::size_t{64}, most_states);
+    std::size_t const most = std::min(most_states, std::bit_floor(most_entries / std::max<std::size_t>(width_, 8)));
+    std::size_t const size = std::clamp(std::bit_ceil(2 * suffix.states()), std::size_t{64}, most);
     shift_ = static_cast<unsigned>(64 - std::countr_zero(size));
     if (states_.size() < size) states_.resize(size);
     if (rows_.size() < size * width_) rows_.resize(size * width_);

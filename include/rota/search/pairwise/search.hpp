@@ -111,7 +111,7 @@ public:
 
 private:
   enum class end { exhausted, stopped, found };
-  static constexpr std::uint64_t poll_every = 4096;
+  static constexpr std::uint64_t poll_every = 512;
   static constexpr std::int32_t first_credit = 200;  // improvements of prices tried at a depth, without success
   static constexpr std::uint32_t try_every = 64;     // and besides, one of so many
   static constexpr std::size_t few = 4;              // agents left: too few for prices to be improved

@@ -64,7 +64,10 @@ private:
       std::size_t const step_x = turned ? 1 : row_;
       std::size_t const step_y = turned ? row_ : 1;
       for (std::size_t x = 0; x < slots_; ++x)
-        for (std::size_t y = 0; y < slots_; ++y, ++w) to[x * step_x + y * step_y] += *w == absent ? forbidden : *w;
+        for (std::size_t y = 0; y < slots_; ++y, ++w) {
+          auto& here = to[x * step_x + y * step_y];
+          here = *w == absent || here == forbidden ? forbidden : here + *w;  // forbidden once, however often it is said
+        }
     }
     count_.fill(0);
     missing_ = 0;

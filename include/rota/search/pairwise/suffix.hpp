@@ -45,7 +45,9 @@ public:
   static constexpr float impossible = -1e9F;
   static constexpr float feasible = -1e8F;
 
-  void prepare(pairwise_model const& model, std::span<std::uint32_t const> upper, suffix_plan plan) {
+  /// Where stop() says so, for fewer ranks than planned.
+  template <class Stop>
+  void prepare(pairwise_model const& model, std::span<std::uint32_t const> upper, suffix_plan plan, Stop& stop) {
     agents_ = model.agents();
     slots_ = model.slots();
     upper_ = upper;
@@ -54,7 +56,7 @@ public:
     levels_ = 0;
     enumerated_ = 0;
     states_.clear();
-    if (agents_ < 3 || plan.exact == 0) return;
+    if (agents_ < 3 || plan.exact == 0 || stop()) return;
     enumerated_ = std::min(plan.exact, agents_ - 1);
     levels_ = std::min(enumerated_ + plan.beyond, agents_ - 1);
     space_.prepare(upper, agents_, levels_);
@@ -70,11 +72,16 @@ public:
     best_.resize((levels_ + 1) * stride_);
     by_.resize((levels_ + 1) * stride_ * width_);
     best_[0] = 0;
-    enumerate(model);
+    enumerate(model, stop);
     for (std::size_t k = 2, all = 1; k <= enumerated_; ++k, all *= slots_) work_ += all;
     for (std::size_t k = enumerated_ + 1; k <= levels_; ++k) {
+      if (stop()) {
+        levels_ = k - 1;
+        break;
+      }
       std::fill_n(by(agents_ - k), space_.size(k) * width_, -impossible);
-      for (std::size_t r = 1; r <= std::min(k - enumerated_, most_placed) && (r == 1 || affordable(k, r)); ++r)
+      for (std::size_t r = 1; r <= std::min(k - enumerated_, most_placed) && (r == 1 || (affordable(k, r) && !stop()));
+           ++r)
         expand(model, agents_ - k, r);
       settle(k);
     }
@@ -179,7 +186,8 @@ private:
 
   // Enumeration. A column is a pair of slots x ≤ y: once with the last agent but one in x, once with it in y. Lanes hold
   // what is lost against the greatest entries; what is lost beyond the floors counts as the floor, which is more.
-  void enumerate(pairwise_model const& model) {
+  template <class Stop>
+  void enumerate(pairwise_model const& model, Stop& stop) {
     std::size_t const n = agents_;
     std::size_t const levels = enumerated_;
     for (std::size_t k = 1; k <= levels; ++k) std::fill_n(by(n - k), space_.size(k) * width_, impossible);
@@ -220,6 +228,10 @@ private:
     columns_kernel_ = choose_columns_kernel();
     std::int32_t most = last_pair_;
     for (std::size_t k = 3; k <= levels; ++k) {
+      if (stop()) {
+        levels_ = enumerated_ = k - 1;
+        return;
+      }
       std::size_t const d = n - k;
       for (std::size_t j = d + 1; j < n; ++j) most += pair_most(d, j);
       most += share_most_[d];
