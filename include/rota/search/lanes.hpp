@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 /// The loops of kernels.hpp in lanes of four numbers, for processors with AVX2. No intrinsics: the vector types are an
 /// extension that g++ and clang share. Where there is none, ROTA_HAS_LANES is not defined.
@@ -56,12 +57,18 @@ ROTA_WIDE lanes load(std::int64_t const* from) {
 ROTA_WIDE void store(std::int64_t* to, lanes x) { std::memcpy(to, &x, sizeof x); }
 ROTA_WIDE lanes all(std::int64_t x) { return lanes{x, x, x, x}; }
 
-/// The least of what the lanes have seen, if it is less than `e`; where equal, the first.
+/// Where the second of two is less, or as little and earlier, it takes the place of the first.
+ROTA_WIDE void lesser(lanes& value, lanes& at, lanes other, lanes other_at) {
+  auto const less = (other < value) | ((other == value) & (other_at < at));
+  value = less ? other : value;
+  at = less ? other_at : at;
+}
+/// The least of what the lanes have seen, if it is less than `e`; where equal, the first. Without branches, since nothing
+/// predicts which lane it is in.
 ROTA_WIDE void reduce(lanes value, lanes at, row_entry& e) {
-  for (std::size_t i = 0; i < width; ++i) {
-    auto const where = static_cast<std::size_t>(at[i]);
-    if (value[i] < e.value || (value[i] == e.value && where < e.at)) e = {value[i], where};
-  }
+  lesser(value, at, __builtin_shufflevector(value, value, 2, 3, 0, 1), __builtin_shufflevector(at, at, 2, 3, 0, 1));
+  lesser(value, at, __builtin_shufflevector(value, value, 1, 0, 3, 2), __builtin_shufflevector(at, at, 1, 0, 3, 2));
+  if (value[0] < e.value) e = {value[0], static_cast<std::size_t>(at[0])};
 }
 
 // The variables below stand by themselves, and the loop is unrolled by hand, since g++ keeps members of a structure of
@@ -99,8 +106,8 @@ ROTA_WIDE row_entry relax(std::int64_t base, std::int64_t const* price, std::int
     index += 4;
   }
   row_entry e{limit, n};
+  lesser(value0, at0, value1, at1);
   reduce(value0, at0, e);
-  reduce(value1, at1, e);
   for (; k < n; ++k) {
     std::int64_t const offered = base + price[k] - gain[k];
     if (offered < label[k]) label[k] = offered, via[k] = link;
@@ -138,7 +145,7 @@ ROTA_WIDE std::size_t best(std::int64_t const* worth, std::int64_t const* price,
     value = less ? x : value;
     at = less ? index : at;
   }
-  row_entry e{value[0], static_cast<std::size_t>(at[0])};
+  row_entry e{std::numeric_limits<std::int64_t>::max(), 0};
   reduce(value, at, e);
   for (; k < n; ++k)
     if (price[k] - worth[k] < e.value) e = {price[k] - worth[k], k};
@@ -159,13 +166,11 @@ ROTA_WIDE row_leaders best_two(std::int64_t const* worth, std::int64_t const* pr
     auto const closer = loser < second;
     second = closer ? loser : second;
   }
-  row_entry e{value[0], static_cast<std::size_t>(at[0])};
+  row_entry e{std::numeric_limits<std::int64_t>::max(), 0};
   reduce(value, at, e);
-  std::int64_t other = -row_leaders::nothing;
-  for (std::size_t i = 0; i < width; ++i) {
-    other = std::min(other, second[i]);
-    if (static_cast<std::size_t>(at[i]) != e.at) other = std::min(other, value[i]);
-  }
+  lanes others = at == all(static_cast<std::int64_t>(e.at)) ? all(-row_leaders::nothing) : value;
+  others = second < others ? second : others;
+  std::int64_t other = std::min(std::min(others[0], others[1]), std::min(others[2], others[3]));
   for (; k < n; ++k) {
     std::int64_t const x = price[k] - worth[k];
     other = std::min(other, std::max(x, e.value));

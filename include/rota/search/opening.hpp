@@ -38,7 +38,7 @@ public:
 
 private:
   using value = slot_graph::value;
-  static constexpr std::size_t crowd = 16;  // agents a slot from which on a sample says more than an auction
+  static constexpr std::size_t crowd = 32;  // agents a slot from which on a sample says more than an auction
   static constexpr unsigned quarter = 2;    // as a shift
   static constexpr value captive = std::numeric_limits<value>::max();  // the bid of who has no second slot
 
