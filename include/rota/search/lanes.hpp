@@ -198,9 +198,12 @@ ROTA_WIDE void raise(std::int64_t const* row, std::int64_t base, std::int64_t li
 ROTA_WIDE std::size_t first_tight(std::int64_t const* gain, std::int64_t price_here, std::int64_t const* price,
                                   std::size_t k, std::size_t n) {
   lanes const here = all(price_here);
-  for (; k + width <= n; k += width) {
-    auto const tight = load(gain + k) + here >= load(price + k);
-    if (((tight[0] | tight[1]) | (tight[2] | tight[3])) != 0) break;
+  for (; k + 4 * width <= n;
+       k += 4 * width) {  // most rows have none, and to look at a lane costs as much as a comparison
+    auto any = load(gain + k) + here >= load(price + k);
+    for (std::size_t i = width; i < 4 * width; i += width) any |= load(gain + k + i) + here >= load(price + k + i);
+    any |= __builtin_shufflevector(any, any, 2, 3, 0, 1);
+    if ((any[0] | any[1]) != 0) break;
   }
   while (k < n && gain[k] + price_here < price[k]) ++k;
   return k;

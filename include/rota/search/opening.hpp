@@ -52,8 +52,9 @@ private:
     instance const& in = graph.problem();
     bid_.assign(in.agents, 0);
     waiting_.clear();
-    bids_left_ = (agents + 1) / 2;
-    if (one_each(graph, agents)) choose_for_slots(graph);
+    bool const square = one_each(graph, agents);
+    if (square) choose_for_slots(graph);
+    bids_left_ = square ? agents - agents / 4 : agents - agents / 2;
     for (row_index a = 0; a < in.agents; ++a)
       if (in.takes_part(a) && graph.who().home(a) == no_slot)
         for (auto next = a; next != membership::nobody;) next = bid(graph, next);

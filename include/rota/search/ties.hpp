@@ -21,7 +21,7 @@ namespace rota::dense {
 /// utilities.
 class tie_rule {
 public:
-  /// Keeps utilities as they are.
+  /// For no agents and no slots.
   tie_rule() = default;
   /// For n agents and s slots of utilities up to `magnitude`. @pre fits(n, s, magnitude)
   tie_rule(std::size_t agents, std::size_t slots, std::uint64_t magnitude) noexcept
