@@ -223,7 +223,7 @@ problem any_problem(dice& d, std::uint64_t most) {
 /// All ways to divide the work.
 rota::dense::pairwise_effort any_effort(dice& d) {
   rota::dense::pairwise_effort e;
-  e.enumerate_up_to = d.chance(10) ? 2048 : 0;
+  e.plain_nodes = d.chance(60) ? 0 : d.chance(50) ? d.bits() % 300 : 16384;
   if (d.chance(80)) e.exact_suffix = d.bits() % 6;
   if (d.chance(80)) e.bounded_suffix = d.bits() % 6;
   return e;
@@ -599,7 +599,7 @@ TEST(pairwise, nobody_nowhere_and_nothing_possible_have_an_answer) {
   EXPECT_TRUE(s.solve(p.view()).found);
   p.bounds[1].upper = 1;
   for (std::uint64_t const enumerate : {std::uint64_t{0}, std::uint64_t{2048}}) {
-    s.effort.enumerate_up_to = enumerate;
+    s.effort.plain_nodes = enumerate;
     got = s.solve(p.view());
     EXPECT_TRUE(!got.found && got.complete);
     EXPECT_EQ(got.bound, absent);
@@ -631,8 +631,8 @@ TEST(pairwise, the_greatest_numbers_are_added_right) {
       }
     p.bounds.assign(3, {0, static_cast<std::uint32_t>(n)});
     optimum const best = enumerate(p);
-    for (std::uint64_t const enumerate_up_to : {std::uint64_t{0}, std::uint64_t{2048}}) {
-      s.effort.enumerate_up_to = enumerate_up_to;
+    for (std::uint64_t const plain_nodes : {std::uint64_t{0}, std::uint64_t{2048}}) {
+      s.effort.plain_nodes = plain_nodes;
       auto const got = s.solve(p.view());
       ASSERT_EQ(got.found, best.value.has_value());
       if (got.found) {
@@ -663,7 +663,7 @@ TEST(pairwise, forbidden_often_is_forbidden) {
   for (int i = 0; i < 1 << 13; ++i) p.tables.push_back({0, 1, {absent, 0, 0, absent}});
   pairwise_solver s;
   for (std::uint64_t const enumerated : {2048u, 0u}) {
-    s.effort.enumerate_up_to = enumerated;
+    s.effort.plain_nodes = enumerated;
     auto const got = s.solve(p.view());
     ASSERT_TRUE(got.complete && got.found);
     EXPECT_EQ(got.value, 3);

@@ -24,10 +24,11 @@ namespace rota::dense {
 /// The same on every machine, compiler and run, and so is every number in the outcome.
 /// Anytime: what a spent budget or `stop` leaves is the best valid assignment seen, and a proven bound.
 ///
-/// How: tiny instances are enumerated. Otherwise an assignment is improved by local search (`local_search`); the tables
-/// are reparametrised and rounded up to 16 bits, an agent per lane (`pairwise_model`); the last half of the agents, those
-/// coupled least, are solved for all counts of agents per slot at once (`suffix_bounds`); and depth-first branch and
-/// bound (`pairwise_search`) adds to these what the unplaced get from the placed at best, slots having prices
+/// How: what has at most eight agents and slots, and mostly ends soon, has a plain search with plain bounds
+/// (`plain_search`). Otherwise an assignment is improved by local search (`local_search`); the tables are reparametrised
+/// and rounded up to 16 bits, an agent per lane (`pairwise_model`); the last half of the agents, those coupled least, are
+/// solved for all counts of agents per slot at once (`suffix_bounds`); and depth-first branch and bound
+/// (`pairwise_search`) adds to these what the unplaced get from the placed at best, slots having prices
 /// (`price_table`). Ties are settled only where bounds do not exclude them.
 ///
 /// Memory O(n²·m²), at most 45 MB (1 MB for n ≤ 20, m ≤ 8), and bounds by counts in tables of fixed size, at most 75 MB.
@@ -38,7 +39,8 @@ public:
   pairwise_effort effort;
 
   /// Searches until the canonical optimum is proved, about `budget` nodes have been tried, or stop() says so, which is
-  /// asked every few hundred nodes, and now and then before there are any. See `no_observer` for what an observer hears.
+  /// asked every few hundred nodes, those of the plain search aside, and now and then before there are any. See
+  /// `no_observer` for what an observer hears.
   ///
   /// @return found = false and complete = true iff no assignment is valid
   /// @pre the preconditions of `pairwise_instance`
@@ -52,9 +54,23 @@ public:
     best_.assignment.assign(n, no_slot);
     tallies_.assign(n + 1, {});
     if (n == 0 || in.slots() == 0) return nothing_to_choose(in);
-    if (detail::pairwise_enumeration::suits(n, in.slots(), std::min(effort.enumerate_up_to, budget / 2))) {
-      out.found = small_.solve(in, best_.assignment, out.value, out.nodes, tallies_, observer);
-      return complete(out, out.value);
+    if (detail::plain_search::suits(n, in.slots())) {
+      auto const plainly = std::min(effort.plain_nodes, budget / 2);
+      no_observer nobody;
+      auto const found = small_.solve(in, plainly, best_.assignment, out.value, tallies_, nobody);
+      out.nodes = small_.nodes();
+      if (found) {
+        if constexpr (!std::is_same_v<Observer,
+                                      no_observer>) {  // once more, to be heard: of what is given up it is not
+          tallies_.assign(n + 1, {});
+          (void)small_.solve(in, plainly, best_.assignment, out.value, tallies_, observer);
+        }
+        out.found = *found;
+        return complete(out, out.value);
+      }
+      budget -= out.nodes;
+      best_.assignment.assign(n, no_slot);
+      tallies_.assign(n + 1, {});
     }
     if (!start(in, budget, stop)) {
       ++tallies_[0].by_cardinality;
@@ -71,7 +87,7 @@ public:
     std::uint64_t const nodes = search_.nodes();
     bool settled = proved;
     if (proved && best_.found && search_.tied()) settled = search_.settle(best_, left, stop);
-    out.nodes = spent + search_.nodes();
+    out.nodes += spent + search_.nodes();
     out.tie_nodes = search_.nodes() - nodes;
     out.found = best_.found;
     if (proved) {
@@ -160,7 +176,7 @@ private:
   std::vector<pairwise_tally> tallies_;
   std::vector<std::uint32_t> lower_;
   std::vector<std::uint32_t> upper_;
-  detail::pairwise_enumeration small_;
+  detail::plain_search small_;
   detail::pairwise_model model_;
   additive_solver additive_;
   detail::local_search local_;

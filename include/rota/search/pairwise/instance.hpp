@@ -55,8 +55,8 @@ struct pairwise_tally {
 /// How a pairwise search divides its work.
 struct pairwise_effort {
   static constexpr std::size_t automatic = ~std::size_t{0};
-  /// Instances of at most so many assignments are enumerated, if they have at most eight agents and slots.
-  std::uint64_t enumerate_up_to = 2048;
+  /// With at most eight agents and slots, the bounds that take time to make wait for so many placements with plain ones.
+  std::uint64_t plain_nodes = 16384;
   /// So many agents at the end are enumerated for bounds: slots^(exact_suffix − 2) steps.
   std::size_t exact_suffix = automatic;
   /// So many agents more are bounded from there.

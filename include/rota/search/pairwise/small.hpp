@@ -7,45 +7,47 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <span>
 #include <type_traits>
 #include <vector>
 
 namespace rota::dense::detail {
 
-/// Tries every assignment of a tiny instance, in lexicographic order; so the first best one is the canonical one.
+/// Tries the assignments of a tiny instance in lexicographic order, so the first best one is the canonical one; but for
+/// those that cannot be better, each agent left being in its best slot with those placed, and each pair left at its best.
 ///
 /// What each agent would get from those placed is kept for all that are not, slot by slot: an assignment costs about one
 /// addition. O(m^n) time, O(n²·m²) memory.
-class pairwise_enumeration {
+class plain_search {
 public:
   static constexpr std::size_t most_agents = 8;
   static constexpr std::size_t most_slots = 8;
 
-  /// Whether it has at most so many assignments, of at most eight agents and slots.
-  static bool suits(std::size_t agents, std::size_t slots, std::uint64_t most) {
-    if (agents > most_agents || slots > most_slots) return false;
-    std::uint64_t all = 1;
-    for (std::size_t i = 0; i < agents; ++i) all *= slots;
-    return all <= most;
+  [[nodiscard]] static constexpr bool suits(std::size_t agents, std::size_t slots) noexcept {
+    return agents <= most_agents && slots <= most_slots;
   }
 
-  /// @return whether there is a valid assignment; then `best` is the canonical optimum and `value` its value
+  /// @param limit placements after which it gives up
+  /// @return whether there is a valid assignment: then `best` is the canonical optimum and `value` its value; nothing if it
+  /// has given up @pre suits
   template <class Observer>
-  bool solve(pairwise_instance const& in, std::span<slot> best, std::int64_t& value, std::uint64_t& nodes,
-             std::span<pairwise_tally> tallies, Observer& observer) {
+  std::optional<bool> solve(pairwise_instance const& in, std::uint64_t limit, std::span<slot> best, std::int64_t& value,
+                            std::span<pairwise_tally> tallies, Observer& observer) {
     read(in);
-    best_ = forbidden / 2;
+    best_ = nothing;
     nodes_ = 0;
-    place(in.bounds, 0, 0, best, tallies, observer);
-    nodes = nodes_;
+    limit_ = limit;
+    if (!place(in.bounds, 0, 0, best, tallies, observer)) return std::nullopt;
     value = best_;
-    return best_ > forbidden / 2;
+    return best_ > nothing;
   }
+  /// Placements tried.
+  [[nodiscard]] std::uint64_t nodes() const noexcept { return nodes_; }
 
 private:
   static constexpr std::int64_t forbidden = -4 * max_pairwise_total;
+  static constexpr std::int64_t nothing = forbidden / 2;
 
   void read(pairwise_instance const& in) {
     ROTA_ASSERT(in.unary.size() == in.agents * in.slots());
@@ -69,13 +71,26 @@ private:
           here = *w == absent || here == forbidden ? forbidden : here + *w;  // forbidden once, however often it is said
         }
     }
+    rest_[agents_] = 0;
+    for (std::size_t a = agents_; a-- > 0;) {
+      rest_[a] = rest_[a + 1];
+      for (std::size_t b = a + 1; b < agents_; ++b) {
+        std::int64_t most = forbidden;
+        for (std::size_t x = 0; x < slots_; ++x) {
+          std::int64_t const* const w = &pairs_[(a * slots_ + x) * row_ + b * slots_];
+          most = std::max(most, *std::max_element(w, w + slots_));
+        }
+        rest_[a] += most;
+      }
+    }
     count_.fill(0);
     missing_ = 0;
     for (slot_bounds const b : in.bounds) missing_ += b.lower;
   }
 
+  /// @return false if it has given up
   template <class Observer>
-  void place(std::span<slot_bounds const> bounds, std::size_t d, std::int64_t value, std::span<slot> best,
+  bool place(std::span<slot_bounds const> bounds, std::size_t d, std::int64_t value, std::span<slot> best,
              std::span<pairwise_tally> tallies, Observer& observer) {
     std::int64_t const* const field = fields_[d].data() + d * slots_;
     for (std::size_t x = 0; x < slots_; ++x) {
@@ -83,9 +98,11 @@ private:
       std::uint64_t const missing = missing_ - (count_[x] < bounds[x].lower ? 1 : 0);
       if (count_[x] >= bounds[x].upper || missing > agents_ - d - 1) {
         ++tallies[d + 1].by_cardinality;
-        if constexpr (!std::is_same_v<Observer, no_observer>) tell(observer, d + 1);
+        if constexpr (!std::is_same_v<Observer, no_observer>)
+          tell(observer, d + 1, pairwise_cut::cardinality, forbidden);
         continue;
       }
+      if (nodes_ == limit_) return false;
       ++nodes_;
       std::int64_t const sum = value + field[x];
       if (d + 1 == agents_) {
@@ -98,22 +115,34 @@ private:
       std::int64_t const* const from = fields_[d].data();
       std::int64_t const* const add = &pairs_[(d * slots_ + x) * row_];
       std::int64_t* const to = fields_[d + 1].data();
-      for (std::size_t i = (d + 1) * slots_; i < row_; ++i) to[i] = from[i] + add[i];
+      std::int64_t most = sum + rest_[d + 1];
+      for (std::size_t i = (d + 1) * slots_; i < row_;) {
+        std::int64_t in_best_slot = to[i] = from[i] + add[i];
+        for (std::size_t const next = ++i + slots_ - 1; i < next; ++i)
+          in_best_slot = std::max(in_best_slot, to[i] = from[i] + add[i]);
+        most += in_best_slot;
+      }
+      if (most <= best_) {
+        ++tallies[d + 1].by_bound;
+        if constexpr (!std::is_same_v<Observer, no_observer>) tell(observer, d + 1, pairwise_cut::bound, most);
+        continue;
+      }
       std::uint64_t const before = missing_;
       missing_ = missing;
       ++count_[x];
-      place(bounds, d + 1, sum, best, tallies, observer);
+      if (!place(bounds, d + 1, sum, best, tallies, observer)) return false;
       --count_[x];
       missing_ = before;
     }
+    return true;
   }
 
   template <class Observer>
-  void tell(Observer& observer, std::size_t placed) {
+  void tell(Observer& observer, std::size_t placed, pairwise_cut why, std::int64_t bound) {
     std::array<slot, most_agents> partial;
     partial.fill(no_slot);
     std::copy_n(at_.begin(), placed, partial.begin());
-    observer(std::span<slot const>(partial.data(), agents_), pairwise_cut::cardinality, forbidden);
+    observer(std::span<slot const>(partial.data(), agents_), why, bound);
   }
 
   std::size_t agents_ = 0;
@@ -121,8 +150,10 @@ private:
   std::size_t row_ = 0;
   std::uint64_t missing_ = 0;
   std::uint64_t nodes_ = 0;
+  std::uint64_t limit_ = 0;
   std::int64_t best_ = 0;
   std::array<slot, most_agents> at_{};
+  std::array<std::int64_t, most_agents + 1> rest_{};  // what the pairs from an agent on are worth at most
   std::array<std::uint32_t, most_slots> count_{};
   std::array<std::array<std::int64_t, most_agents * most_slots>, most_agents> fields_{};  // [depth][agent, slot]
   std::vector<std::int64_t> pairs_;                                                       // [agent, slot][agent, slot]
