@@ -9,7 +9,7 @@
 
 namespace rota {
 
-/// The second best plan of a type, at its own best allocation.
+/// The second best plan of a type, at the best allocation found for it: its own best, unless the budget ran out.
 template <vocabulary V>
 struct runner_up {
   typename V::plan plan{};
