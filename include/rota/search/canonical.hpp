@@ -1,12 +1,12 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/slot_graph.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace rota::dense {
 
@@ -45,16 +45,19 @@ private:
     heads_.clear();
     begin_.assign(slots + 1, 0);
     degree_.assign(slots + 1, 0);
+    bool somebody = false;
     for (std::size_t j = 0; j < slots; ++j) {
       auto const add = [&](std::size_t k) {
         heads_.push_back(static_cast<slot>(k));
         ++degree_[k];
       };
       graph.for_each_tight(j, add);
+      somebody |= heads_.size() > begin_[j];
       if (may_give(graph, j)) add(graph.sink());
       if (may_get(graph, j)) ++degree_[j];
       begin_[j + 1] = static_cast<std::uint32_t>(heads_.size());
     }
+    if (!somebody) return true;  // places alone make no other optimum
     // Strip what nothing leads to; what remains lies on cycles or behind them.
     queue_.clear();
     for (std::size_t v = 0; v <= slots; ++v)
@@ -155,15 +158,15 @@ private:
     }
   }
 
-  std::vector<slot> heads_;  // of the tight arcs from slot j: those from begin_[j] to begin_[j + 1]
-  std::vector<std::uint32_t> begin_;
-  std::vector<std::uint32_t> degree_;  // tight arcs that lead to a node; 0 once stripped
-  std::vector<slot> queue_;
-  std::vector<slot> way_;
+  buffer<slot> heads_;  // of the tight arcs from slot j: those from begin_[j] to begin_[j + 1]
+  buffer<std::uint32_t> begin_;
+  buffer<std::uint32_t> degree_;  // tight arcs that lead to a node; 0 once stripped
+  buffer<slot> queue_;
+  buffer<slot> way_;
   std::size_t nodes_ = 0;
   std::size_t words_ = 0;
-  std::vector<std::uint32_t> movers_;  // [from][to]: agents not fixed yet that could move so
-  std::vector<std::uint64_t> before_;  // [to]: the nodes from which somebody could move there, as bits
+  buffer<std::uint32_t> movers_;  // [from][to]: agents not fixed yet that could move so
+  buffer<std::uint64_t> before_;  // [to]: the nodes from which somebody could move there, as bits
   std::uint64_t resolved_ = 0;
 };
 

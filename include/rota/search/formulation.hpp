@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/solution.hpp>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ public:
   using agent = typename V::agent;
 
   formulation(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, plan_memory& memory,
-              std::vector<std::int64_t>& row)
+              dense::buffer<std::int64_t>& row)
       : problem_(problem), plan_(p), memory_(memory), row_(row) {}
 
   /// False if the plan has no valid allocation for a reason that shows at once: `refusal`.
@@ -269,7 +270,7 @@ private:
   problem<V, Beliefs> const& problem_;
   plan<V, Beliefs> const& plan_;
   plan_memory& memory_;
-  std::vector<std::int64_t>& row_;
+  dense::buffer<std::int64_t>& row_;
   std::int64_t cost_ = 0;
   plan_refusal<V> refusal_{};
   std::optional<utility_refusal<V>> ignored_{};

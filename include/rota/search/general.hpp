@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/instance.hpp>
 #include <rota/search/limits.hpp>
 
@@ -9,7 +10,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace rota::dense {
 
@@ -284,15 +284,15 @@ private:
 
   std::size_t slots_ = 0;
   bool known_ = false;  // the best so far was given, and an equal one may still come first in order
-  std::vector<slot> assignment_;
-  std::vector<slot> best_;
-  std::vector<slot> refuter_;
-  std::vector<std::uint32_t> count_;
-  std::vector<slot> next_;
-  std::vector<std::int64_t> sum_;
-  std::vector<std::int64_t> bound_;   // of the first d agents, none greater than the one before
-  std::vector<std::uint64_t> below_;  // s^(n−d) modulo the modulus
-  std::vector<std::uint32_t> able_;   // [a·s]: how many agents from a on may take each slot
+  buffer<slot> assignment_;
+  buffer<slot> best_;
+  buffer<slot> refuter_;
+  buffer<std::uint32_t> count_;
+  buffer<slot> next_;
+  buffer<std::int64_t> sum_;
+  buffer<std::int64_t> bound_;   // of the first d agents, none greater than the one before
+  buffer<std::uint64_t> below_;  // s^(n−d) modulo the modulus
+  buffer<std::uint32_t> able_;   // [a·s]: how many agents from a on may take each slot
 };
 
 }  // namespace rota::dense

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/instance.hpp>
 #include <rota/search/kernels.hpp>
 #include <rota/search/membership.hpp>
@@ -8,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace rota::dense {
 
@@ -108,11 +108,11 @@ private:
   [[nodiscard]] std::size_t at(std::size_t j, std::size_t k) const noexcept { return row_of_[j] * slots_ + k; }
 
   std::size_t slots_ = 0;
-  std::vector<slot> row_of_;  // of a slot, its row in the two below
-  std::vector<value> gain_;   // at least what any member gains by moving
-  std::vector<value> mover_;  // who: as wide as gains, for the lanes
+  buffer<slot> row_of_;  // of a slot, its row in the two below
+  buffer<value> gain_;   // at least what any member gains by moving
+  buffer<value> mover_;  // who: as wide as gains, for the lanes
   bool open_ = false;
-  std::vector<value> rest_price_;
+  buffer<value> rest_price_;
   value rest_margin_ = 0;
 };
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/instance.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace rota::dense {
 
@@ -78,12 +78,12 @@ private:
     ++count_[j];
   }
 
-  std::vector<slot> home_;
-  std::vector<std::int64_t> worth_;
-  std::vector<row_index> next_, previous_;
-  std::vector<unsigned char> resting_;
-  std::vector<row_index> head_, tail_;
-  std::vector<std::uint32_t> count_;
+  buffer<slot> home_;
+  buffer<std::int64_t> worth_;
+  buffer<row_index> next_, previous_;
+  buffer<unsigned char> resting_;
+  buffer<row_index> head_, tail_;
+  buffer<std::uint32_t> count_;
   std::int64_t total_ = 0;
 };
 

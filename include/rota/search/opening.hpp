@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/slot_graph.hpp>
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace rota::dense {
 
@@ -207,12 +207,12 @@ private:
 
   row_index homeless_ = membership::nobody;
   std::size_t bids_left_ = 0;
-  std::vector<value> bid_;  // the price up to which an agent would stay in its slot, at least
-  std::vector<row_index> waiting_;
-  std::vector<value> fan_;  // to whom a slot is worth most
-  std::vector<slot_bounds> bounds_;
+  buffer<value> bid_;  // the price up to which an agent would stay in its slot, at least
+  buffer<row_index> waiting_;
+  buffer<value> fan_;  // to whom a slot is worth most
+  buffer<slot_bounds> bounds_;
   unsigned smallest_ = 0;  // the sample of one agent in 2^smallest_ is solved first
-  std::vector<value> margins_;
+  buffer<value> margins_;
 };
 
 }  // namespace rota::dense

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rota/search/additive.hpp>
+#include <rota/search/buffer.hpp>
 #include <rota/search/pairwise/instance.hpp>
 #include <rota/search/pairwise/local_search.hpp>
 #include <rota/search/pairwise/model.hpp>
@@ -14,7 +15,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
 namespace rota::dense {
 
@@ -173,9 +173,9 @@ private:
   }
 
   detail::pairwise_best best_;
-  std::vector<pairwise_tally> tallies_;
-  std::vector<std::uint32_t> lower_;
-  std::vector<std::uint32_t> upper_;
+  buffer<pairwise_tally> tallies_;
+  buffer<std::uint32_t> lower_;
+  buffer<std::uint32_t> upper_;
   detail::plain_search small_;
   detail::pairwise_model model_;
   additive_solver additive_;

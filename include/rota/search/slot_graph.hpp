@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/instance.hpp>
 #include <rota/search/kernels.hpp>
 #include <rota/search/ledgers.hpp>
@@ -10,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace rota::dense {
 
@@ -366,16 +366,16 @@ private:
   instance in_;
   membership who_;
   ledgers ledgers_;
-  std::vector<std::uint32_t> places_;  // units from a slot to the sink
-  std::vector<slot_bounds> bounds_;
+  buffer<std::uint32_t> places_;  // units from a slot to the sink
+  buffer<slot_bounds> bounds_;
   value surplus_ = 0;  // excess of the sink
-  std::vector<value> price_;
-  std::vector<value> label_;  // tentative distance, `unreached` once final
-  std::vector<value> open_price_;
-  std::vector<value> via_;
-  std::vector<value> distance_;
-  std::vector<slot> settled_;
-  std::vector<slot> targets_;
+  buffer<value> price_;
+  buffer<value> label_;  // tentative distance, `unreached` once final
+  buffer<value> open_price_;
+  buffer<value> via_;
+  buffer<value> distance_;
+  buffer<slot> settled_;
+  buffer<slot> targets_;
   std::size_t sources_ = 0;
   work done_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rota/search/additive.hpp>
+#include <rota/search/buffer.hpp>
 #include <rota/search/general.hpp>
 #include <rota/search/limits.hpp>
 #include <rota/search/pairwise.hpp>
@@ -14,20 +15,20 @@ namespace rota {
 
 /// One plan in dense numbers, as it was when it was last searched: what has not changed need not be searched again.
 struct plan_memory {
-  std::vector<dense::slot_bounds> bounds;  ///< of the tasks, idle last
-  std::vector<std::int64_t> units;         ///< utilities less change costs, row per agent, idle last
-  std::vector<std::int64_t> keys;          ///< the same with ties broken
+  dense::buffer<dense::slot_bounds> bounds;  ///< of the tasks, idle last
+  dense::buffer<std::int64_t> units;         ///< utilities less change costs, row per agent, idle last
+  dense::buffer<std::int64_t> keys;          ///< the same with ties broken
   dense::tie_rule ties;
-  std::vector<dense::row_index> changed;  ///< rows that the solver has not seen
-  bool seen = false;                      ///< whether it has seen all the others
+  dense::buffer<dense::row_index> changed;  ///< rows that the solver has not seen
+  bool seen = false;                        ///< whether it has seen all the others
   dense::additive_solver solver;
   dense::additive_outcome last;  ///< of the solver, on `keys` and `bounds`
   bool solved = false;           ///< whether it still holds
 
-  dense::pair_tables pairs;          ///< what parts of U_p say of two agents, where they are not too many
-  dense::pairwise_outcome together;  ///< of the pairwise solver, on `units`, `pairs` and `bounds`
-  std::vector<dense::slot> placed;   ///< its assignment
-  bool settled = false;              ///< whether both still hold
+  dense::pair_tables pairs;           ///< what parts of U_p say of two agents, where they are not too many
+  dense::pairwise_outcome together;   ///< of the pairwise solver, on `units`, `pairs` and `bounds`
+  dense::buffer<dense::slot> placed;  ///< its assignment
+  bool settled = false;               ///< whether both still hold
 };
 
 /// Buffers that searches reuse, so that solving allocates nothing in a steady loop and begins where it ended. An answer never depends
@@ -40,13 +41,13 @@ public:
   std::vector<plan_memory> plans;  ///< by their order in the plan type
   dense::tree_solver tree;
   dense::pairwise_solver pairwise;
-  std::vector<std::int64_t> row;       ///< one agent's utilities
-  std::vector<std::int64_t> most;      ///< what the agents from one on add at most, at the prices of the slots
-  std::vector<dense::row_index> twin;  ///< see `dense::tree_options`
-  std::vector<std::uint64_t> kind;     ///< of each agent, as the utility says
-  std::vector<dense::slot> now;        ///< what each agent does, as a slot
-  std::vector<dense::slot> candidate;  ///< the assignment found for the present plan
-  std::vector<dense::slot> best;       ///< the assignment of the best plan so far
+  dense::buffer<std::int64_t> row;       ///< one agent's utilities
+  dense::buffer<std::int64_t> most;      ///< what the agents from one on add at most, at the prices of the slots
+  dense::buffer<dense::row_index> twin;  ///< see `dense::tree_options`
+  dense::buffer<std::uint64_t> kind;     ///< of each agent, as the utility says
+  dense::buffer<dense::slot> now;        ///< what each agent does, as a slot
+  dense::buffer<dense::slot> candidate;  ///< the assignment found for the present plan
+  dense::buffer<dense::slot> best;       ///< the assignment of the best plan so far
 };
 
 }  // namespace rota

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/instance.hpp>
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace rota::dense::detail {
 
@@ -95,7 +95,7 @@ public:
 
   /// Appends all vectors with lower_s ≤ c_s ≤ upper_s of sum k, in the order of their numbers.
   void list(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper, std::size_t k,
-            std::vector<packed_counts>& out) const {
+            buffer<packed_counts>& out) const {
     std::size_t room = 0;
     for (std::uint32_t const u : upper) room += u;
     list(lower, upper, k, room, 0, 0, out);
@@ -104,7 +104,7 @@ public:
 private:
   /// `room`: what slots from s on can hold, so that nothing is begun that they could not take.
   void list(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper, std::size_t k, std::size_t room,
-            std::size_t s, packed_counts c, std::vector<packed_counts>& out) const {
+            std::size_t s, packed_counts c, buffer<packed_counts>& out) const {
     if (s + 1 == slots_) {
       if (k >= lower[s] && k <= upper[s]) out.push_back(c + unit(s) * k);
       return;
@@ -119,9 +119,9 @@ private:
   unsigned field_ = 1;
   packed_counts guard_ = 0;
   std::size_t indices_ = 1;
-  std::vector<std::size_t> weight_;
-  std::vector<std::uint32_t> ways_;    // [s, r]: vectors of slots s… that sum up to r
-  std::vector<std::uint32_t> before_;  // [s, r, t]: of these, the ones with c_s < t
+  buffer<std::size_t> weight_;
+  buffer<std::uint32_t> ways_;    // [s, r]: vectors of slots s… that sum up to r
+  buffer<std::uint32_t> before_;  // [s, r, t]: of these, the ones with c_s < t
 };
 
 }  // namespace rota::dense::detail

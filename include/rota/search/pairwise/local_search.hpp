@@ -1,12 +1,12 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/pairwise/model.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace rota::dense::detail {
 
@@ -123,9 +123,9 @@ private:
 
   std::size_t agents_ = 0;
   std::size_t slots_ = 0;
-  std::vector<slot> at_;
-  std::vector<std::uint32_t> count_;
-  std::vector<std::int64_t> gain_;
+  buffer<slot> at_;
+  buffer<std::uint32_t> count_;
+  buffer<std::int64_t> gain_;
 };
 
 }  // namespace rota::dense::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rota/core/assert.hpp>
+#include <rota/search/buffer.hpp>
 #include <rota/search/pairwise/instance.hpp>
 #include <rota/search/pairwise/lanes.hpp>
 
@@ -9,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace rota::dense::detail {
 
@@ -289,8 +289,7 @@ private:
       for (std::size_t i = 1; i <= r; ++i)
         if (left_[order_[i]] <= left_[order_[least]]) least = i;
       std::uint32_t const a = order_[least];
-      order_.erase(order_.begin() + static_cast<std::ptrdiff_t>(least));
-      order_.insert(order_.begin() + static_cast<std::ptrdiff_t>(r), a);
+      std::rotate(order_.begin() + least, order_.begin() + least + 1, order_.begin() + r + 1);
       for (std::size_t i = 0; i < r; ++i) left_[order_[i]] -= strength_[a * n + order_[i]];
     }
     // Twins keep the caller's order: then the smallest assignment in it is the one with non-decreasing slots.
@@ -359,23 +358,23 @@ private:
   unsigned shift_ = 0;
   std::int64_t offset_ = 0;
   std::uint64_t total_ = 0;
-  std::vector<std::int64_t> unary_;      // [agent, slot]
-  std::vector<std::int64_t> pairs_;      // [agent, slot, agent, slot]
-  std::vector<char> coupled_;            // [agent, agent]
-  std::vector<std::uint32_t> kind_;      // [agent]
-  std::vector<std::int64_t> centred_;    // [agent, slot]: u'
-  std::vector<std::int64_t> means_;      // [agent, agent, slot]: r
-  std::vector<std::uint64_t> strength_;  // [agent, agent]: Σ v², coarsely
-  std::vector<std::uint64_t> reach64_;   // [agent]: Σ_j max|v|
-  std::vector<std::uint64_t> spread64_;  // [agent]: max|u'|
-  std::vector<std::uint64_t> left_;
-  std::vector<std::uint32_t> order_;  // [rank] → agent
-  std::vector<std::uint32_t> rank_;   // [agent]
-  std::vector<std::uint32_t> twin_;   // [rank]
-  std::vector<std::int32_t> reach_;   // [rank]: in quanta
-  std::vector<lane> tables_;          // [rank, slot, slot, lane]
-  std::vector<lane> fields_;          // [slot, lane]
-  std::vector<std::int32_t> shares_;  // [rank, slot]
+  buffer<std::int64_t> unary_;      // [agent, slot]
+  buffer<std::int64_t> pairs_;      // [agent, slot, agent, slot]
+  buffer<char> coupled_;            // [agent, agent]
+  buffer<std::uint32_t> kind_;      // [agent]
+  buffer<std::int64_t> centred_;    // [agent, slot]: u'
+  buffer<std::int64_t> means_;      // [agent, agent, slot]: r
+  buffer<std::uint64_t> strength_;  // [agent, agent]: Σ v², coarsely
+  buffer<std::uint64_t> reach64_;   // [agent]: Σ_j max|v|
+  buffer<std::uint64_t> spread64_;  // [agent]: max|u'|
+  buffer<std::uint64_t> left_;
+  buffer<std::uint32_t> order_;  // [rank] → agent
+  buffer<std::uint32_t> rank_;   // [agent]
+  buffer<std::uint32_t> twin_;   // [rank]
+  buffer<std::int32_t> reach_;   // [rank]: in quanta
+  buffer<lane> tables_;          // [rank, slot, slot, lane]
+  buffer<lane> fields_;          // [slot, lane]
+  buffer<std::int32_t> shares_;  // [rank, slot]
 };
 
 }  // namespace rota::dense::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/pairwise/suffix.hpp>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace rota::dense::detail {
 
@@ -268,17 +268,17 @@ private:
   std::span<std::uint32_t const> upper_;
   suffix_bounds const* suffix_ = nullptr;
   count_space const* space_ = nullptr;
-  std::vector<packed_counts> finals_;
-  std::vector<std::uint32_t> indices_;  // [final]
-  std::vector<float> components_;       // [slot, final]
-  std::vector<state> states_;
-  std::vector<float> rows_;  // [state, final]: best(d)[f − p]
-  std::vector<float> values_;
-  std::vector<std::uint32_t> valid_;
-  std::vector<std::uint32_t> numbers_;
-  std::vector<std::int32_t> wanted_;
-  std::vector<std::int64_t> means_;
-  std::vector<std::int64_t> own_;
+  buffer<packed_counts> finals_;
+  buffer<std::uint32_t> indices_;  // [final]
+  buffer<float> components_;       // [slot, final]
+  buffer<state> states_;
+  buffer<float> rows_;  // [state, final]: best(d)[f − p]
+  buffer<float> values_;
+  buffer<std::uint32_t> valid_;
+  buffer<std::uint32_t> numbers_;
+  buffer<std::int32_t> wanted_;
+  buffer<std::int64_t> means_;
+  buffer<std::int64_t> own_;
 };
 
 }  // namespace rota::dense::detail

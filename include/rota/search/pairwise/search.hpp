@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/pairwise/instance.hpp>
 #include <rota/search/pairwise/prices.hpp>
 
@@ -12,7 +13,6 @@
 #include <limits>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 namespace rota::dense::detail {
 
@@ -20,7 +20,7 @@ namespace rota::dense::detail {
 struct pairwise_best {
   bool found = false;
   std::int64_t value = pairwise_model::nothing;
-  std::vector<slot> assignment;
+  buffer<slot> assignment;
 };
 
 /// Depth-first branch and bound over agents by rank, the most promising slot first; iterative.
@@ -245,7 +245,8 @@ private:
       return true;
     }
     if (value <= best.value) {
-      tied_ |= best.found && value == best.value && partial_ != best.assignment;
+      tied_ |=
+          best.found && value == best.value && !std::equal(partial_.begin(), partial_.end(), best.assignment.begin());
       return false;
     }
     best.found = true;
@@ -460,22 +461,22 @@ private:
   std::span<std::uint32_t const> lower_;
   std::span<std::uint32_t const> upper_;
   std::array<std::int32_t, max_pairwise_slots> most_by_{};
-  std::vector<std::int32_t> credit_;    // [depth]
-  std::vector<std::uint64_t> allowed_;  // [rank]: slots, as bits
-  std::vector<std::uint64_t> present_;  // [rank]: of these, the ones there are
-  std::vector<std::uint32_t> count_;    // [slot]
-  std::vector<slot> at_;                // [rank]
-  std::vector<slot> partial_;           // [agent]
-  std::vector<frame> frames_;           // [depth]
-  std::vector<child> children_;         // [depth, …]
-  std::vector<lane> fields_;            // [depth, slot, lane]
-  std::vector<lane> scratch_;
-  std::vector<lane> zeros_;
-  std::vector<lane> child_prices_;
-  std::vector<lane_child> job_;
-  std::vector<std::int32_t> sums_;
-  std::vector<pairwise_tally> tallies_;  // [depth]
-  std::vector<pairwise_tally> saved_;
+  buffer<std::int32_t> credit_;    // [depth]
+  buffer<std::uint64_t> allowed_;  // [rank]: slots, as bits
+  buffer<std::uint64_t> present_;  // [rank]: of these, the ones there are
+  buffer<std::uint32_t> count_;    // [slot]
+  buffer<slot> at_;                // [rank]
+  buffer<slot> partial_;           // [agent]
+  buffer<frame> frames_;           // [depth]
+  buffer<child> children_;         // [depth, …]
+  buffer<lane> fields_;            // [depth, slot, lane]
+  buffer<lane> scratch_;
+  buffer<lane> zeros_;
+  buffer<lane> child_prices_;
+  buffer<lane_child> job_;
+  buffer<std::int32_t> sums_;
+  buffer<pairwise_tally> tallies_;  // [depth]
+  buffer<pairwise_tally> saved_;
 };
 
 }  // namespace rota::dense::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rota/core/assert.hpp>
+#include <rota/search/buffer.hpp>
 #include <rota/search/pairwise/instance.hpp>
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <optional>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 namespace rota::dense::detail {
 
@@ -156,7 +156,7 @@ private:
   std::array<std::int64_t, most_agents + 1> rest_{};  // what the pairs from an agent on are worth at most
   std::array<std::uint32_t, most_slots> count_{};
   std::array<std::array<std::int64_t, most_agents * most_slots>, most_agents> fields_{};  // [depth][agent, slot]
-  std::vector<std::int64_t> pairs_;                                                       // [agent, slot][agent, slot]
+  buffer<std::int64_t> pairs_;                                                            // [agent, slot][agent, slot]
 };
 
 }  // namespace rota::dense::detail

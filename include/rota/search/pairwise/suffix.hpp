@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/pairwise/counts.hpp>
 #include <rota/search/pairwise/model.hpp>
 
@@ -8,7 +9,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
 namespace rota::dense::detail {
 
@@ -435,37 +435,37 @@ private:
   std::uint64_t work_ = 0;
   std::span<std::uint32_t const> upper_;
   count_space space_;
-  std::vector<packed_counts> states_;
-  std::vector<std::size_t> first_state_;  // [sum]
-  std::vector<std::uint32_t> more_;       // [state, slot]
-  std::vector<std::uint32_t> state_index_;
-  std::vector<std::uint16_t> numbers_;  // [sum, index]
-  std::vector<std::uint32_t> zero_;
-  std::vector<float> best_;  // [sum, number]
-  std::vector<float> by_;    // [sum, number, slot]
-  std::vector<std::int32_t> flat_;
-  std::vector<std::int32_t> step_;
-  std::vector<std::size_t> low_;
-  std::vector<std::size_t> high_;
+  buffer<packed_counts> states_;
+  buffer<std::size_t> first_state_;  // [sum]
+  buffer<std::uint32_t> more_;       // [state, slot]
+  buffer<std::uint32_t> state_index_;
+  buffer<std::uint16_t> numbers_;  // [sum, index]
+  buffer<std::uint32_t> zero_;
+  buffer<float> best_;  // [sum, number]
+  buffer<float> by_;    // [sum, number, slot]
+  buffer<std::int32_t> flat_;
+  buffer<std::int32_t> step_;
+  buffer<std::size_t> low_;
+  buffer<std::size_t> high_;
   std::size_t columns_ = 0;
   std::int32_t last_pair_ = 0;
   unsigned coarse_ = 0;
-  std::vector<std::int32_t> pair_most_;   // [rank, rank]
-  std::vector<std::int32_t> share_most_;  // [rank]
+  buffer<std::int32_t> pair_most_;   // [rank, rank]
+  buffer<std::int32_t> share_most_;  // [rank]
   columns_kernel columns_kernel_ = nullptr;
-  std::vector<lane> sums_;  // [level][either, other][column]
-  std::vector<lane> adds_;  // [level][slot][either, other][column]
-  std::vector<std::int32_t> inner_;
-  std::vector<lane> pairs_;            // [first slot, number, column]
-  std::vector<slot> ways_;             // [way, placed]
-  std::vector<packed_counts> fronts_;  // [way]
-  std::vector<std::size_t> order_;
-  std::vector<lane> gains_;  // [agent, slot, lane]
-  std::vector<lane> now_;    // [state, lane]
-  std::vector<lane> then_;
-  std::vector<std::int32_t> worth_;
-  std::vector<std::int32_t> got_;
-  std::vector<float> row_;
+  buffer<lane> sums_;  // [level][either, other][column]
+  buffer<lane> adds_;  // [level][slot][either, other][column]
+  buffer<std::int32_t> inner_;
+  buffer<lane> pairs_;            // [first slot, number, column]
+  buffer<slot> ways_;             // [way, placed]
+  buffer<packed_counts> fronts_;  // [way]
+  buffer<std::size_t> order_;
+  buffer<lane> gains_;  // [agent, slot, lane]
+  buffer<lane> now_;    // [state, lane]
+  buffer<lane> then_;
+  buffer<std::int32_t> worth_;
+  buffer<std::int32_t> got_;
+  buffer<float> row_;
 };
 
 }  // namespace rota::dense::detail

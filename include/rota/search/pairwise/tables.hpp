@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/search/buffer.hpp>
 #include <rota/search/pairwise/instance.hpp>
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace rota::dense {
 
@@ -118,10 +118,10 @@ private:
   std::size_t agents_ = 0;
   std::size_t slots_ = 0;
   std::uint64_t magnitude_ = 0;
-  std::vector<std::int64_t> worth_;  // [pair of agents, slot, slot]
-  std::vector<std::int64_t> most_;   // [agent, slot, d]: with all agents from d on, at best
-  std::vector<std::int64_t> rest_;   // [d]: all agents from d on among themselves, at best
-  std::vector<coupling> couplings_;
+  buffer<std::int64_t> worth_;  // [pair of agents, slot, slot]
+  buffer<std::int64_t> most_;   // [agent, slot, d]: with all agents from d on, at best
+  buffer<std::int64_t> rest_;   // [d]: all agents from d on among themselves, at best
+  buffer<coupling> couplings_;
 };
 
 }  // namespace rota::dense
