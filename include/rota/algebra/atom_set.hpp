@@ -7,7 +7,6 @@
 #include <concepts>
 #include <cstddef>
 #include <initializer_list>
-#include <iterator>
 #include <span>
 #include <utility>
 
@@ -86,21 +85,28 @@ private:
 template <ordered_atom Atom>
 [[nodiscard]] constexpr atom_set<Atom> unite(atom_set<Atom> const& c, atom_set<Atom> const& d) {
   small_vector<Atom, 8> atoms;
-  std::set_union(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(atoms));
+  auto x = c.begin();  // std::set_union would need room for |C| + |D|, and where the two are much alike few are left
+  for (Atom const& y : d) {
+    while (x != c.end() && *x < y) atoms.push_back(*x++);
+    if (x != c.end() && !(y < *x)) ++x;
+    atoms.push_back(y);
+  }
+  while (x != c.end()) atoms.push_back(*x++);
   return atom_set<Atom>::from_ascending(std::move(atoms));
 }
 /// C ∩ D.
 template <ordered_atom Atom>
 [[nodiscard]] constexpr atom_set<Atom> intersect(atom_set<Atom> const& c, atom_set<Atom> const& d) {
   small_vector<Atom, 8> atoms;
-  std::set_intersection(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(atoms));
+  atoms.append(std::min(c.size(), d.size()),
+               [&](Atom* out) { return std::set_intersection(c.begin(), c.end(), d.begin(), d.end(), out); });
   return atom_set<Atom>::from_ascending(std::move(atoms));
 }
 /// C ∖ D.
 template <ordered_atom Atom>
 [[nodiscard]] constexpr atom_set<Atom> subtract(atom_set<Atom> const& c, atom_set<Atom> const& d) {
   small_vector<Atom, 8> atoms;
-  std::set_difference(c.begin(), c.end(), d.begin(), d.end(), std::back_inserter(atoms));
+  atoms.append(c.size(), [&](Atom* out) { return std::set_difference(c.begin(), c.end(), d.begin(), d.end(), out); });
   return atom_set<Atom>::from_ascending(std::move(atoms));
 }
 /// C ⊆ D.

@@ -23,8 +23,7 @@ struct utility_refusal {
 
 /// weight·value as a number of units, or why it cannot be counted.
 [[nodiscard]] constexpr result<fixed_utility, utility_fault> weigh(double weight, double value) noexcept {
-  bool const finite = value - value == 0;
-  return quantise(finite ? weight * value : value);
+  return quantise(is_finite(value) ? weight * value : value);
 }
 
 /// total ← total + term; or why not, and total unchanged.

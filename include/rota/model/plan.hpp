@@ -5,7 +5,6 @@
 #include <rota/model/utility.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <span>
@@ -100,7 +99,7 @@ public:
     if (twice != d.tasks.end()) return refused{plan_defect<V>{kind::repeated_task, twice->task}};
     if (!callable<V, Beliefs>(d.utility)) return refused{plan_defect<V>{kind::missing_utility, {}}};
     if (!weights_are_finite<V, Beliefs>(d.utility)) return refused{plan_defect<V>{kind::weight_not_finite, {}}};
-    if (!(d.hysteresis >= 0) || !std::isfinite(d.hysteresis))
+    if (!(d.hysteresis >= 0) || !is_finite(d.hysteresis))
       return refused{plan_defect<V>{kind::threshold_not_finite, {}}};
     return plan{std::move(d)};
   }

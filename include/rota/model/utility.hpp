@@ -2,7 +2,6 @@
 
 #include <rota/model/allocation.hpp>
 
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -109,11 +108,14 @@ template <vocabulary V, class Beliefs>
   return any && all;
 }
 
+/// Neither NaN nor infinite. (The standard's is in `<cmath>`, which costs two thirds of `<vector>` to include.)
+[[nodiscard]] constexpr bool is_finite(double x) noexcept { return x - x == 0; }
+
 /// Whether every weight is a finite number.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] bool weights_are_finite(utility<V, Beliefs> const& u) {
   bool all = true;
-  for_each_part<V, Beliefs>(u, [&](double weight, auto const&) { all &= std::isfinite(weight); });
+  for_each_part<V, Beliefs>(u, [&](double weight, auto const&) { all &= is_finite(weight); });
   return all;
 }
 
