@@ -17,18 +17,14 @@ namespace rota::dense {
 /// - few agents a slot: a short auction. Agents bid in turn for their best slot, as far as their second best allows; a slot that
 ///   is full raises its price to what its members bid least. Nobody is ever where it would not be.
 /// - one agent a slot, all to be filled: the same, but prices begin where one agent is content with each slot.
-/// - many agents a slot: prices from a quarter of the agents, and theirs from a quarter of these. Chosen by hash: a stride
+/// - many agents a slot, or so many who want the same that an auction does not end: prices from a quarter of the agents, and theirs from a quarter of these. Chosen by hash: a stride
 ///   could meet the classes of equal agents.
 class opening {
 public:
   /// Places everybody who takes part; false if somebody has no pair at all. @pre `graph` holds nobody
   [[nodiscard]] bool play(slot_graph& graph, std::size_t agents, work_limit const& limit) {
     homeless_ = membership::nobody;
-    if (agents <= crowd * graph.slots()) {
-      auction(graph, agents);
-    } else {
-      sample(graph, agents, limit);
-    }
+    if (agents > crowd * graph.slots() || !auction(graph, agents)) sample(graph, agents, limit);
     graph.open_places(agents);
     return homeless_ == membership::nobody;
   }
@@ -38,6 +34,7 @@ public:
 
 private:
   using value = slot_graph::value;
+  static constexpr std::size_t few = 8;     // agents a slot below which a sample says nothing
   static constexpr std::size_t crowd = 32;  // agents a slot from which on a sample says more than an auction
   static constexpr unsigned quarter = 2;    // as a shift
   static constexpr value captive = std::numeric_limits<value>::max();  // the bid of who has no second slot
@@ -48,7 +45,8 @@ private:
 
   // Auction -----------------------------------------------------------------------------------------------------------
 
-  void auction(slot_graph& graph, std::size_t agents) {
+  /// False, with nobody placed, if so many wait in the end that a sample says more.
+  bool auction(slot_graph& graph, std::size_t agents) {
     instance const& in = graph.problem();
     bid_.assign(in.agents, 0);
     waiting_.clear();
@@ -58,9 +56,14 @@ private:
     for (row_index a = 0; a < in.agents; ++a)
       if (in.takes_part(a) && graph.who().home(a) == no_slot)
         for (auto next = a; next != membership::nobody;) next = bid(graph, next);
+    if (agents >= few * graph.slots() && 5 * waiting_.size() > 2 * agents) {
+      graph.clear();
+      return false;
+    }
     graph.keep_ledgers();
     for (auto const a : waiting_)
       if (graph.who().home(a) == no_slot) place(graph, a);  // who waited may have bid again
+    return true;
   }
 
   /// Agent a goes to its best slot, or waits, or pushes somebody out, or meets a higher price. @return who bids next
