@@ -14,11 +14,11 @@ namespace rota::dense {
 /// Where to begin: prices at which few agents have to move, and everybody where it is worth most at them.
 ///
 /// Any prices will do for the result; good ones save most of the searches. Three openings:
-/// - few agents a slot: a short auction. Agents bid in turn for their best slot, as far as their second best allows; a slot that
-///   is full raises its price to what its members bid least. Nobody is ever where it would not be.
+/// - few agents a slot: a short auction. Agents bid in turn for their best slot, as far as their second best allows; a slot
+///   that is full raises its price to what its members bid least. Nobody is ever where it would not be.
 /// - one agent a slot, all to be filled: the same, but prices begin where one agent is content with each slot.
-/// - many agents a slot, or so many who want the same that an auction does not end: prices from a quarter of the agents, and theirs from a quarter of these. Chosen by hash: a stride
-///   could meet the classes of equal agents.
+/// - many agents a slot, or so many who want the same that an auction does not end: prices from a quarter of the agents, and
+///   theirs from a quarter of these. Chosen by hash: a stride could meet the classes of equal agents.
 class opening {
 public:
   /// Places everybody who takes part; false if somebody has no pair at all. @pre `graph` holds nobody
