@@ -498,9 +498,13 @@ TEST(kernel, lanes_compute_what_plain_loops_do) {
     RC_ASSERT(who == expected_who);
 
     auto const from = static_cast<std::size_t>(d.below(static_cast<int>(n)));
-    auto tight = from;
-    while (tight < n && worth[tight] + 2 < price[tight]) ++tight;
-    RC_ASSERT(wide::first_tight(worth.data(), 2, price.data(), from, n) == tight);
+    auto gap = price[from] - worth[from];
+    for (auto k = from; k < n; ++k) gap = std::min(gap, price[k] - worth[k]);
+    for (auto const here : {std::int64_t{2}, gap, gap - 1}) {  // some are tight, just one or equal ones are, none is
+      auto tight = from;
+      while (tight < n && worth[tight] + here < price[tight]) ++tight;
+      RC_ASSERT(wide::first_tight(worth.data(), here, price.data(), from, n) == tight);
+    }
   }));
 }
 #endif

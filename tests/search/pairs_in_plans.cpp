@@ -20,13 +20,7 @@ using small_world::any_seed;
 using small_world::between;
 using small_world::dice;
 
-struct names {
-  enum class agent : std::uint8_t {};
-  enum class plan_type : std::uint8_t { only };
-  enum class plan : std::uint8_t {};
-  enum class task : std::uint8_t {};
-  enum class state : std::uint8_t {};
-};
+using small_world::names;
 using plan_t = rota::plan<names, rota::no_beliefs>;
 
 /// A plan whose utility is made of numbers drawn once, some of them no utilities.
@@ -48,8 +42,13 @@ struct drawn {
       list.push_back({names::task(t), {least, least + static_cast<std::uint32_t>(d.below(n))}, {}});
     }
   }
-  [[nodiscard]] double pair(int a, int s, int b, int t) const {
-    return together[static_cast<std::size_t>(((a * tasks + s) * agents + b) * tasks + t)];
+  [[nodiscard]] std::size_t index(int a, int s, int b, int t) const {
+    return static_cast<std::size_t>(((a * tasks + s) * agents + b) * tasks + t);
+  }
+  [[nodiscard]] double pair(int a, int s, int b, int t) const { return together[index(a, s, b, t)]; }
+  double& of(rota::in<names> const& x, rota::in<names> const& y) {
+    return together[index(static_cast<int>(x.agent), static_cast<int>(x.task), static_cast<int>(y.agent),
+                          static_cast<int>(y.task))];
   }
   /// The plan, with a precondition that always holds or with none: the one is searched as a tree, the other is not.
   [[nodiscard]] rota::plan_type<names> type(bool as_tree) const {
@@ -174,9 +173,20 @@ TEST(pairwise_plans, what_has_not_changed_is_not_searched_again_and_allocates_no
   ASSERT_TRUE(second);
   EXPECT_EQ(second->work.nodes, 0u);
   EXPECT_EQ(second->atoms, first->atoms);
-  for (int round = 0; round < 50; ++round) {  // one number of a pair, or of an agent
-    auto& numbers = round % 2 == 0 ? world.together : world.alone;
-    numbers[d.bits() % numbers.size()] = 0.5 * d.below(20);
+  auto now = *first;
+  int moved = 0;
+  // One number that counts: of two agents and what they do now, or of any agent.
+  for (int round = 0; round < 50; ++round) {
+    if (round % 2 == 0) {
+      auto const atoms = now.atoms.atoms();
+      ASSERT_GE(atoms.size(), 2u);
+      auto const j = 1 + d.bits() % (atoms.size() - 1);
+      auto const& one = atoms[d.bits() % j];
+      auto const& other = atoms[j];
+      world.of(one, other) = -0.5 * (1 + d.below(20));
+    } else {
+      world.alone[d.bits() % world.alone.size()] = 0.5 * d.below(20);
+    }
     auto const allocated = rota_test::allocation_count();
     auto const warm = best_allocation(ask, work);
     EXPECT_EQ(rota_test::allocation_count(), allocated) << round;
@@ -185,7 +195,10 @@ TEST(pairwise_plans, what_has_not_changed_is_not_searched_again_and_allocates_no
     ASSERT_TRUE(warm && cold);
     EXPECT_EQ(warm->atoms, cold->atoms) << round;
     EXPECT_EQ(warm->exact, cold->exact) << round;
+    moved += warm->atoms != now.atoms;
+    now = *warm;
   }
+  EXPECT_GE(moved, 10);
 }
 
 TEST(pairwise_plans, what_is_no_utility_names_both_agents) {
@@ -242,6 +255,19 @@ TEST(pairwise_plans, beyond_the_limits_of_the_pairwise_solver) {
   EXPECT_TRUE(best->optimal);
   EXPECT_EQ(best->utility, 3 * rota::max_utility + 12);
   EXPECT_EQ(best->atoms.atoms()[1].task, names::task(1)) << "the first two apart, the lexicographically first so";
+
+  // Sums so great that what is forbidden to the pairwise solver would look like a gain.
+  drawn alone(d, 3, 1, 1, 0);
+  alone.list = {{names::task(0), {3, 3}, {}}};
+  for (auto& u : alone.alone) u = rota::max_utility;
+  for (auto& w : alone.together) w = 0;
+  auto const of_alone = alone.type(false);
+  rota::problem const all_three{of_alone, few, rota::no_beliefs{}};
+  auto const possible = best_allocation(all_three, work);
+  ASSERT_TRUE(possible);
+  EXPECT_EQ(possible->utility, 3 * rota::max_utility);
+  alone.together[alone.index(0, 0, 1, 0)] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(best_allocation(all_three, work));
 }
 
 }  // namespace

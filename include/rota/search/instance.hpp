@@ -2,9 +2,11 @@
 
 #include <rota/core/assert.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 
 /// Solvers on dense indices: instantiated once, whatever the vocabulary.
@@ -64,5 +66,20 @@ struct instance {
     return taking_part.empty() || taking_part[agent] != 0;
   }
 };
+
+/// The total utility of an assignment, or nothing if it is not within all bounds or uses a pair that does not exist. O(n·s)
+/// @pre everybody takes part
+[[nodiscard]] inline std::optional<std::int64_t> value_of(instance const& in, std::span<slot const> assignment) {
+  std::int64_t sum = 0;
+  for (std::size_t a = 0; a < assignment.size(); ++a) {
+    if (assignment[a] == no_slot || !in.present(a, assignment[a])) return std::nullopt;
+    sum += in.at(a, assignment[a]);
+  }
+  for (std::size_t s = 0; s < in.slots(); ++s) {
+    auto const count = static_cast<std::size_t>(std::count(assignment.begin(), assignment.end(), s));
+    if (count < in.bounds[s].lower || count > in.bounds[s].upper) return std::nullopt;
+  }
+  return sum;
+}
 
 }  // namespace rota::dense

@@ -155,7 +155,7 @@ private:
 
   /// Nothing where branch and bound has to do it.
   std::optional<outcome> solve_pairwise(dense::instance const& in, search_budget const& budget, search_work& done) {
-    if (!tables_ || general_ || precondition_ || !in_pairwise_range(in)) return std::nullopt;
+    if (!tables_ || general_ || precondition_ || !memory_.pairs.within_range(in.utility)) return std::nullopt;
     auto& m = memory_;
     if (!m.settled) {
       m.together = work_.pairwise.solve({in.agents, m.units, m.pairs.couplings(), m.bounds}, budget.nodes, budget.stop);
@@ -176,17 +176,6 @@ private:
     auto out = refuse(no_plan_reason::search_incomplete);
     out.bound = found.bound;
     return out;
-  }
-  [[nodiscard]] bool in_pairwise_range(dense::instance const& in) const {
-    auto total = memory_.pairs.magnitude();
-    for (std::size_t a = 0; a < in.agents; ++a) {
-      std::int64_t most = 0;
-      for (std::size_t s = 0; s < in.slots(); ++s)
-        if (in.present(a, s)) most = std::max(most, in.at(a, s) < 0 ? -in.at(a, s) : in.at(a, s));
-      total += static_cast<std::uint64_t>(most);
-      if (total > static_cast<std::uint64_t>(dense::max_pairwise_total)) return false;
-    }
-    return true;
   }
   void note_work(search_work& done) const {
     done.nodes += memory_.together.nodes;
@@ -239,7 +228,7 @@ private:
   /// what the team does now, if that is admissible.
   void begin_with(dense::instance const& in, dense::tree_options& options) {
     auto const offer = [&](std::span<dense::slot const> x) {
-      auto const sum = sum_within_bounds(in, x);
+      auto const sum = dense::value_of(in, x);
       if (!sum) return;
       auto const value = probe(x, *sum);
       if (!value || (!options.known.empty() && *value <= options.known_value)) return;
@@ -248,19 +237,6 @@ private:
     };
     if (coupled()) offer(memory_.solver.assignment());  // otherwise it has been tried
     if (!problem_.current.empty()) offer(work_.now);
-  }
-  /// The additive utility of an assignment within all bounds.
-  static std::optional<std::int64_t> sum_within_bounds(dense::instance const& in, std::span<dense::slot const> x) {
-    std::int64_t sum = 0;
-    for (std::size_t a = 0; a < x.size(); ++a) {
-      if (x[a] == dense::no_slot || !in.present(a, x[a])) return std::nullopt;
-      sum += in.at(a, x[a]);
-    }
-    for (std::size_t s = 0; s < in.slots(); ++s) {
-      auto const count = static_cast<std::size_t>(std::count(x.begin(), x.end(), s));
-      if (count < in.bounds[s].lower || count > in.bounds[s].upper) return std::nullopt;
-    }
-    return sum;
   }
 
   outcome coupling_refused() {

@@ -59,8 +59,18 @@ public:
     return true;
   }
 
-  /// Σ_{i<j} max|w_ij|.
-  [[nodiscard]] std::uint64_t magnitude() const noexcept { return magnitude_; }
+  /// Whether they and `unary` together keep within `max_pairwise_total`, which the pairwise solver asks for. O(n·m)
+  [[nodiscard]] bool within_range(std::span<std::int64_t const> unary) const {
+    auto left = static_cast<std::uint64_t>(max_pairwise_total) - magnitude_;
+    for (std::size_t i = 0; i < agents_; ++i) {
+      std::uint64_t most = 0;
+      for (auto const u : unary.subspan(i * slots_, slots_))
+        if (u != absent) most = std::max(most, static_cast<std::uint64_t>(u < 0 ? -u : u));
+      if (most > left) return false;
+      left -= most;
+    }
+    return true;
+  }
   [[nodiscard]] std::span<coupling const> couplings() const noexcept { return couplings_; }
 
   /// Σ_{i<j} w_ij(x_i, x_j) of a complete assignment, or nothing if it holds a forbidden combination. O(n²)
@@ -117,10 +127,10 @@ private:
 
   std::size_t agents_ = 0;
   std::size_t slots_ = 0;
-  std::uint64_t magnitude_ = 0;
-  buffer<std::int64_t> worth_;  // [pair of agents, slot, slot]
-  buffer<std::int64_t> most_;   // [agent, slot, d]: with all agents from d on, at best
-  buffer<std::int64_t> rest_;   // [d]: all agents from d on among themselves, at best
+  std::uint64_t magnitude_ = 0;  // Σ_{i<j} max|w_ij|
+  buffer<std::int64_t> worth_;   // [pair of agents, slot, slot]
+  buffer<std::int64_t> most_;    // [agent, slot, d]: with all agents from d on, at best
+  buffer<std::int64_t> rest_;    // [d]: all agents from d on among themselves, at best
   buffer<coupling> couplings_;
 };
 
