@@ -5,7 +5,7 @@
 
 #include "support.hpp"
 
-#include <rota/algebra/action.hpp>
+#include <rota/algebra/apply.hpp>
 #include <rota/algebra/delta.hpp>
 #include <rota/algebra/dense_event.hpp>
 

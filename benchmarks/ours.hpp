@@ -2,9 +2,9 @@
 
 #include "peers/pairwise.hpp"
 
-#include <rota/search/additive.hpp>
-#include <rota/search/pairwise.hpp>
-#include <rota/search/ties.hpp>
+#include <rota/dense/flow/solver.hpp>
+#include <rota/dense/pairs/solver.hpp>
+#include <rota/dense/ties.hpp>
 
 #include <algorithm>
 #include <cstddef>

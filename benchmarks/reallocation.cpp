@@ -8,7 +8,7 @@
 #include "ours.hpp"
 #include "support.hpp"
 
-#include <rota/search/ties.hpp>
+#include <rota/dense/ties.hpp>
 
 #include <algorithm>
 #include <cstdint>

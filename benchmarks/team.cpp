@@ -4,8 +4,8 @@
 
 #include "support.hpp"
 
-#include <rota/team/agent.hpp>
 #include <rota/team/conflict.hpp>
+#include <rota/team/robot.hpp>
 
 #include <support/allocation_counter.hpp>
 
@@ -21,7 +21,7 @@ using vocabulary = rota::runtime_vocabulary;
 using atom = rota::in<vocabulary>;
 using event = rota::event<atom>;
 using agent_id = vocabulary::agent;
-using agent = rota::agent<vocabulary>;
+using agent = rota::robot<vocabulary>;
 
 constexpr std::size_t robots = 5;
 constexpr std::size_t tasks = 4;
@@ -78,7 +78,7 @@ struct setting {
   rota::instant now{};
   std::uint64_t sequence = 0;
 
-  explicit setting(rota::agent_options options = {}) : robot({0}, members.agents(), options) {
+  explicit setting(rota::robot_options options = {}) : robot({0}, members.agents(), options) {
     robot.enter(type, now);
     for (std::uint64_t b = 1; b < robots; ++b) hear(b, std::nullopt);
     auto const d = deliberate();
@@ -140,7 +140,7 @@ void tick_agreeing(benchmark::State& state) {
 
 /// Every tick one of the others contradicts, and the robot sets it right: a cycle each, without a leader to end it.
 void tick_quarrelling(benchmark::State& state) {
-  rota::agent_options options;
+  rota::robot_options options;
   options.resolution = false;
   setting s(options);
   auto const at_peace = s.robot.believes(play)->atoms();

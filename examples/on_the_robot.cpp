@@ -31,15 +31,15 @@ int main() {
   rota::team<soccer> const members{left, right};
 
   struct robot {
-    rota::agent<soccer> self;
+    rota::robot<soccer> self;
     beliefs sees;
     rota::workspace space;
     rota::instant next_tick;
   };
   std::array const roster{left, right};
   std::array<robot, 2> robots{
-      robot{rota::agent<soccer>(left, roster), {left}, {}, {}},
-      robot{rota::agent<soccer>(right, roster), {right}, {}, rota::instant{} + milliseconds(13)}};
+      robot{rota::robot<soccer>(left, roster), {left}, {}, {}},
+      robot{rota::robot<soccer>(right, roster), {right}, {}, rota::instant{} + milliseconds(13)}};
   for (auto& r : robots) r.self.enter(play, rota::instant{});
 
   bool ruled = false;

@@ -4,7 +4,7 @@
 #include "text.hpp"
 
 #include <rota/adapters/alica/convert.hpp>
-#include <rota/algebra/action.hpp>
+#include <rota/algebra/apply.hpp>
 #include <rota/allocation/print.hpp>
 #include <rota/allocation/validate.hpp>
 #include <rota/search/best_allocation.hpp>

@@ -2,8 +2,8 @@
 /// @file
 /// The umbrella: everything from core/ to team/. No Eigen, no rapidcheck, no JSON, no networking, no Boost.
 
-#include <rota/algebra/action.hpp>
 #include <rota/algebra/allocation_event.hpp>
+#include <rota/algebra/apply.hpp>
 #include <rota/algebra/associativity.hpp>
 #include <rota/algebra/atom_set.hpp>
 #include <rota/algebra/delta.hpp>
@@ -23,6 +23,6 @@
 #include <rota/model/team.hpp>
 #include <rota/search/best_allocation.hpp>
 #include <rota/search/reallocate.hpp>
-#include <rota/team/agent.hpp>
 #include <rota/team/conflict.hpp>
 #include <rota/team/cycle.hpp>
+#include <rota/team/robot.hpp>

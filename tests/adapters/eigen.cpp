@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <rota/adapters/eigen.hpp>
-#include <rota/algebra/action.hpp>
+#include <rota/algebra/apply.hpp>
 #include <rota/core/atom.hpp>
 
 #include <rapidcheck/gtest.h>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <rota/algebra/action.hpp>
+#include <rota/algebra/apply.hpp>
 #include <rota/algebra/delta.hpp>
 
 #include <compare>

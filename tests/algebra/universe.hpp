@@ -1,7 +1,7 @@
 #pragma once
 /// The atoms, sets, events and deltas the algebra is tested on, and ways to enumerate all of a small universe.
 
-#include <rota/algebra/action.hpp>
+#include <rota/algebra/apply.hpp>
 #include <rota/algebra/delta.hpp>
 #include <rota/core/atom.hpp>
 

@@ -43,7 +43,7 @@ template <class Monitor>
 std::optional<int> messages_until_detection(bool third_changes) {
   auto const book = soccer();
   auto const members = team_of(3);
-  agent<names, Monitor> me({1}, members.agents(), {});
+  robot<names, Monitor> me({1}, members.agents(), {});
   instant now{};
   me.enter(book.type, now);
   point const at_defence{metres(-6), 0}, at_support{metres(-2), metres(3)};

@@ -3,7 +3,7 @@
 
 #include "soccer.hpp"
 
-#include <rota/algebra/action.hpp>
+#include <rota/algebra/apply.hpp>
 #include <rota/team/monitor.hpp>
 
 #include <optional>

@@ -2,7 +2,7 @@
 
 #include "soccer.hpp"
 
-#include <rota/team/agent.hpp>
+#include <rota/team/robot.hpp>
 
 #include <array>
 #include <vector>
@@ -12,7 +12,7 @@ struct view {
   std::array<double, 10> attack{};
 };
 
-using robot_agent = rota::agent<soccer>;
+using robot_agent = rota::robot<soccer>;
 using claim = rota::claim<soccer>;
 using plan_message = rota::plan_message<soccer>;
 using message = rota::message<soccer>;

@@ -1,7 +1,7 @@
 // The whole theory over tiny universes, case by case, against the definitions spelt out atom by atom. No generators: what
 // holds here holds for every case there is. The script tests/mutations shows that each function is held by these laws.
 
-#include <rota/algebra/action.hpp>
+#include <rota/algebra/apply.hpp>
 #include <rota/algebra/associativity.hpp>
 #include <rota/algebra/dense_event.hpp>
 #include <rota/algebra/runs.hpp>

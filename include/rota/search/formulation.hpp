@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/search/buffer.hpp>
+#include <rota/dense/buffer.hpp>
 #include <rota/search/solution.hpp>
 
 #include <algorithm>

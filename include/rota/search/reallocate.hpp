@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/algebra/action.hpp>
+#include <rota/algebra/apply.hpp>
 #include <rota/allocation/hysteresis.hpp>
 #include <rota/allocation/validate.hpp>
 #include <rota/search/best_allocation.hpp>

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <rota/search/additive.hpp>
-#include <rota/search/buffer.hpp>
-#include <rota/search/general.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/flow/solver.hpp>
+#include <rota/dense/pairs/solver.hpp>
+#include <rota/dense/ties.hpp>
+#include <rota/dense/tree/solver.hpp>
 #include <rota/search/limits.hpp>
-#include <rota/search/pairwise.hpp>
-#include <rota/search/pairwise/tables.hpp>
-#include <rota/search/ties.hpp>
+#include <rota/search/pair_tables.hpp>
 
 #include <cstdint>
 #include <vector>

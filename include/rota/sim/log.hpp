@@ -1,7 +1,7 @@
 #pragma once
 
 #include <rota/sim/playbook.hpp>
-#include <rota/team/agent.hpp>
+#include <rota/team/robot.hpp>
 
 #include <concepts>
 #include <cstddef>

@@ -17,13 +17,13 @@ namespace rota::sim {
 /// A simulated team. The phases of loops and messages come from `seed`, as does all noise.
 struct simulation_options {
   std::uint64_t seed = 1;
-  agent_options agent;  ///< `first_message` is set by each robot's clock
+  robot_options agent;  ///< `first_message` is set by each robot's clock
   clock_options clock;
   network_options network;
   sensor_options sensor;
 };
 
-/// A team of robots in virtual time: discrete events, a scripted world, the very `agent` that a real robot would run.
+/// A team of robots in virtual time: discrete events, a scripted world, the very `robot` that a real robot would run.
 ///
 /// Deterministic: events are totally ordered by time, then kind, then robot, then order of creation. The streams of
 /// world, perceptions and network are independent of what the agents decide.
@@ -31,7 +31,7 @@ struct simulation_options {
 template <world World, class Monitor = cycle_monitor<names>>
 class simulation {
 public:
-  using agent_type = agent<names, Monitor>;
+  using robot_type = rota::robot<names, Monitor>;
 
   /// `book` must outlive the simulation.
   simulation(playbook const& book, World world, simulation_options const& options = {})
@@ -42,10 +42,10 @@ public:
     for (std::size_t i = 0; i < members_.size(); ++i) {
       auto engine = engine_for(options.seed, stream::clock, i);
       robot_clock const clock(options.clock, options.agent.message_period, engine);
-      agent_options mine = options.agent;
+      robot_options mine = options.agent;
       mine.first_message = clock.first_message();
       robots_.push_back({clock,
-                         agent_type(members_.agents()[i], members_.agents(), mine),
+                         robot_type(members_.agents()[i], members_.agents(), mine),
                          sensor(options.sensor, i, options.seed),
                          {},
                          clock.first_loop(),
@@ -79,7 +79,7 @@ public:
   [[nodiscard]] team<names> const& members() const noexcept { return members_; }
   [[nodiscard]] playbook const& book() const noexcept { return book_; }
   [[nodiscard]] world_state const& truth() const noexcept { return world_.state(); }
-  [[nodiscard]] agent_type const& robot(std::size_t i) const noexcept { return robots_[i].mind; }
+  [[nodiscard]] robot_type const& robot(std::size_t i) const noexcept { return robots_[i].mind; }
   /// Over all perceptions of all robots so far: does not depend on the protocol.
   [[nodiscard]] std::uint64_t perception_digest() const noexcept {
     std::uint64_t digest = 0;
@@ -92,7 +92,7 @@ private:
 
   struct robot_record {
     robot_clock clock;
-    agent_type mind;
+    robot_type mind;
     sensor eyes;
     perceived belief;
     instant next_loop;    // on its own clock

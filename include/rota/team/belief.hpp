@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/algebra/action.hpp>
+#include <rota/algebra/apply.hpp>
 #include <rota/core/time.hpp>
 #include <rota/model/allocation.hpp>
 

@@ -39,7 +39,7 @@ struct belief_change {
   rota::event<in<V>> event;  ///< e_m; for a claim, the imposed change
 };
 
-/// The answer of `agent::receive`.
+/// The answer of `robot::receive`.
 template <vocabulary V>
 struct reception {
   rota::verdict verdict = verdict::accepted;
@@ -57,7 +57,7 @@ enum class decision_reason : unsigned char {
   obeyed                ///< a leader decides
 };
 
-/// The answer of `agent::deliberate`.
+/// The answer of `robot::deliberate`.
 template <vocabulary V>
 struct decision {
   decision_reason reason = decision_reason::not_executing;
@@ -73,7 +73,7 @@ struct decision {
 };
 
 /// Parameters of an agent; the defaults are the paper's.
-struct agent_options {
+struct robot_options {
   std::uint32_t cycles = 4;           ///< n subsequent cycles are a conflict that does not heal
   duration pending_age = seconds(1);  ///< see `monitor_options`
   duration reign = seconds(2);        ///< how long authority lasts
@@ -88,7 +88,7 @@ struct agent_options {
   rota::hysteresis hysteresis{};              ///< see `reallocate`
   double change_cost = 0;                     ///< see `problem::change_cost`
 
-  friend bool operator==(agent_options const&, agent_options const&) = default;
+  friend bool operator==(robot_options const&, robot_options const&) = default;
 };
 
 }  // namespace rota

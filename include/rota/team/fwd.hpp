@@ -17,6 +17,6 @@ class literal_monitor;
 template <vocabulary V>
 class authority;
 template <vocabulary V, class Monitor>
-class agent;
+class robot;
 
 }  // namespace rota

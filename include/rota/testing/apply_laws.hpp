@@ -3,7 +3,7 @@
 /// The laws of `difference` and `apply`, and of runs, for events E and sets of any storage. The structure S names the
 /// functions; storage.hpp says what a type of your own needs beside them.
 
-#include <rota/algebra/action.hpp>
+#include <rota/algebra/apply.hpp>
 #include <rota/algebra/runs.hpp>
 #include <rota/testing/storage.hpp>
 

@@ -2,7 +2,7 @@
 /// @file
 /// Many allocations boiled down to one number, which must be the same whatever compiled and ran the program.
 
-#include <rota/search/pairwise.hpp>
+#include <rota/dense/pairs/solver.hpp>
 #include <rota/search/reallocate.hpp>
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <rota/search/canonical.hpp>
-#include <rota/search/opening.hpp>
-#include <rota/search/slot_graph.hpp>
+#include <rota/dense/flow/detail/canonical.hpp>
+#include <rota/dense/flow/detail/opening.hpp>
+#include <rota/dense/flow/detail/slot_graph.hpp>
 
 #include <algorithm>
 #include <cstddef>

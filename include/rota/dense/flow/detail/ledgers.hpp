@@ -1,9 +1,9 @@
 #pragma once
 
-#include <rota/search/buffer.hpp>
-#include <rota/search/instance.hpp>
-#include <rota/search/kernels.hpp>
-#include <rota/search/membership.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/flow/detail/kernels.hpp>
+#include <rota/dense/flow/detail/membership.hpp>
+#include <rota/dense/instance.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <rota/search/buffer.hpp>
-#include <rota/search/pairwise/model.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/pairs/detail/model.hpp>
 
 #include <algorithm>
 #include <cstddef>

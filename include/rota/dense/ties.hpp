@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/search/instance.hpp>
+#include <rota/dense/instance.hpp>
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <rota/core/assert.hpp>
-#include <rota/search/buffer.hpp>
-#include <rota/search/pairwise/instance.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/pairs/instance.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <rota/search/buffer.hpp>
-#include <rota/search/pairwise/suffix.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/pairs/detail/suffix_bounds.hpp>
 
 #include <algorithm>
 #include <array>

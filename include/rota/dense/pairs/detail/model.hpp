@@ -1,9 +1,9 @@
 #pragma once
 
 #include <rota/core/assert.hpp>
-#include <rota/search/buffer.hpp>
-#include <rota/search/pairwise/instance.hpp>
-#include <rota/search/pairwise/lanes.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/pairs/detail/lanes.hpp>
+#include <rota/dense/pairs/instance.hpp>
 
 #include <algorithm>
 #include <bit>

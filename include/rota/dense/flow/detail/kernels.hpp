@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/search/lanes.hpp>
+#include <rota/dense/flow/detail/lanes.hpp>
 
 #include <cstddef>
 #include <cstdint>

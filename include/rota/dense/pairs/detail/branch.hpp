@@ -1,8 +1,8 @@
 #pragma once
 
-#include <rota/search/buffer.hpp>
-#include <rota/search/pairwise/instance.hpp>
-#include <rota/search/pairwise/prices.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/pairs/detail/price_table.hpp>
+#include <rota/dense/pairs/instance.hpp>
 
 #include <algorithm>
 #include <array>

@@ -30,7 +30,7 @@ struct agent_test : testing::Test {
   rota::team<soccer> members = make_team(9);
   rota::workspace space;
 
-  robot_agent robot_in_play(int n, rota::agent_options const& options = {}) {
+  robot_agent robot_in_play(int n, rota::robot_options const& options = {}) {
     robot_agent a(robot(n), squad(9), options);
     a.enter(play, start);
     return a;
@@ -56,7 +56,7 @@ TEST_F(agent_test, enters_alone_decides_and_leaves) {
 }
 
 TEST_F(agent_test, changes_no_more_readily_than_its_options_say) {
-  auto const swaps_for = [&](rota::agent_options const& options, double gain) {
+  auto const swaps_for = [&](rota::robot_options const& options, double gain) {
     auto a = robot_in_play(1, options);
     (void)a.receive(says(2, 1, defend), start);
     view v = sees(1);
@@ -164,7 +164,7 @@ TEST_F(agent_test, without_a_valid_allocation_nobody_has_a_task_and_all_still_ta
 }
 
 TEST_F(agent_test, plan_messages_keep_a_drift_free_grid_under_a_30_ms_loop) {
-  rota::agent_options options;
+  rota::robot_options options;
   options.first_message = start + milliseconds(17);
   auto a = robot_in_play(1, options);
   int sent = 0;
@@ -340,7 +340,7 @@ struct pitch {
   rota::instant now = start;
   std::map<int, int> detections, reigns;
 
-  pitch(agent_test& f, std::vector<view> what_they_see, rota::agent_options options = {})
+  pitch(agent_test& f, std::vector<view> what_they_see, rota::robot_options options = {})
       : fixture(f), views(std::move(what_they_see)) {
     for (std::size_t i = 0; i < views.size(); ++i) {
       options.first_message = start + milliseconds(static_cast<std::int64_t>(37 * i));
@@ -381,7 +381,7 @@ TEST_F(agent_test, robots_that_see_the_same_agree) {
 }
 
 TEST_F(agent_test, two_that_each_see_themselves_best_loop_until_one_rules) {
-  rota::agent_options off;
+  rota::robot_options off;
   off.resolution = false;
   pitch without(*this, {sees(1), sees(2)}, off);
   int agreeing = 0;
@@ -454,7 +454,7 @@ TEST_F(agent_test, tasks_in_plan_messages_are_ignored_under_authority_and_coming
 }
 
 TEST_F(agent_test, a_deleted_leader_releases_its_followers) {
-  rota::agent_options options;
+  rota::robot_options options;
   options.silence = milliseconds(500);
   auto a = robot_in_play(1, options);
   a.receive(says(9, 1, defend), start);
@@ -601,7 +601,7 @@ TEST_F(agent_test, who_is_given_another_task_is_taken_to_begin_it) {
 /// Rule vi of the monitor: what happened before or during authority never counts afterwards.
 TEST_F(agent_test, cycles_do_not_survive_a_reign_or_a_deletion) {
   for (int interruption : {0, 1, 2, 3}) {
-    rota::agent_options options;
+    rota::robot_options options;
     options.silence = rota::seconds(3);
     auto a = robot_in_play(5, options);
     std::uint64_t n = 0;
@@ -648,7 +648,7 @@ TEST_F(agent_test, authority_over_every_interleaving_of_real_agents) {
   int obeyed = 0, led = 0, restarted = 0, settled = 0, abandoned = 0;
   EXPECT_TRUE(rc::check("one leader, greater stamps only, bounded reigns; one round without loss settles", [&] {
     auto const who = squad(n);
-    rota::agent_options options;
+    rota::robot_options options;
     options.cycles = 2;
     std::vector<robot_agent> robots;
     std::vector<std::uint64_t> incarnation(n, 1);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <rota/search/buffer.hpp>
-#include <rota/search/slot_graph.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/flow/detail/slot_graph.hpp>
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 #include "allocation/small_world.hpp"
 #include "support/allocation_counter.hpp"
 
-#include <rota/search/pairwise.hpp>
+#include <rota/dense/pairs/solver.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

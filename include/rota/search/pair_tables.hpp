@@ -1,7 +1,7 @@
 #pragma once
 
-#include <rota/search/buffer.hpp>
-#include <rota/search/pairwise/instance.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/pairs/instance.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <rota/search/buffer.hpp>
-#include <rota/search/instance.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/instance.hpp>
 
 #include <cstddef>
 #include <cstdint>

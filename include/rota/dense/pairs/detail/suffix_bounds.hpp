@@ -1,8 +1,8 @@
 #pragma once
 
-#include <rota/search/buffer.hpp>
-#include <rota/search/pairwise/counts.hpp>
-#include <rota/search/pairwise/model.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/pairs/detail/count_space.hpp>
+#include <rota/dense/pairs/detail/model.hpp>
 
 #include <algorithm>
 #include <cstddef>

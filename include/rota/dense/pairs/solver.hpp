@@ -1,14 +1,14 @@
 #pragma once
 
-#include <rota/search/additive.hpp>
-#include <rota/search/buffer.hpp>
-#include <rota/search/pairwise/instance.hpp>
-#include <rota/search/pairwise/local_search.hpp>
-#include <rota/search/pairwise/model.hpp>
-#include <rota/search/pairwise/prices.hpp>
-#include <rota/search/pairwise/search.hpp>
-#include <rota/search/pairwise/small.hpp>
-#include <rota/search/pairwise/suffix.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/flow/solver.hpp>
+#include <rota/dense/pairs/detail/branch.hpp>
+#include <rota/dense/pairs/detail/local_search.hpp>
+#include <rota/dense/pairs/detail/model.hpp>
+#include <rota/dense/pairs/detail/plain_search.hpp>
+#include <rota/dense/pairs/detail/price_table.hpp>
+#include <rota/dense/pairs/detail/suffix_bounds.hpp>
+#include <rota/dense/pairs/instance.hpp>
 
 #include <algorithm>
 #include <cstddef>

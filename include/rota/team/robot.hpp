@@ -25,14 +25,14 @@ namespace rota {
 ///
 /// Usage, every 30 ms: `receive` what the radio brought, `deliberate` per plan type, send all of `next_message`.
 template <vocabulary V = runtime_vocabulary, class Monitor = cycle_monitor<V>>
-class agent {
+class robot {
 public:
   using agent_id = typename V::agent;
   using type_id = typename V::plan_type;
 
   /// `roster`: every agent that may ever be heard of; messages of others are refused. One's own id may be left out.
   /// @pre periods are positive; 0 < reign ≤ max_reign, or nobody would obey
-  agent(agent_id self, std::span<agent_id const> roster, agent_options const& options = {})
+  robot(agent_id self, std::span<agent_id const> roster, robot_options const& options = {})
       : self_(self), options_(options), next_plan_message_(options.first_message) {
     ROTA_ASSERT(options.message_period > duration{} && options.claim_period > duration{});
     ROTA_ASSERT(options.reign > duration{} && options.reign <= options.max_reign);
@@ -44,7 +44,7 @@ public:
   }
 
   [[nodiscard]] agent_id self() const noexcept { return self_; }
-  [[nodiscard]] agent_options const& options() const noexcept { return options_; }
+  [[nodiscard]] robot_options const& options() const noexcept { return options_; }
   /// For the stamp of claims made from now on; those in force keep theirs.
   void set_confidence(std::uint32_t confidence) noexcept { options_.confidence = confidence; }
 
@@ -228,7 +228,7 @@ public:
     return due;
   }
 
-  friend bool operator==(agent const&, agent const&) = default;
+  friend bool operator==(robot const&, robot const&) = default;
 
 private:
   struct peer {
@@ -376,7 +376,7 @@ private:
   }
 
   agent_id self_;
-  agent_options options_;
+  robot_options options_;
   std::vector<peer> peers_;    // ascending by id
   std::vector<track> tracks_;  // ascending by type
   std::uint64_t sequence_ = 0;

@@ -1,9 +1,9 @@
 // Branch and bound: its account adds up, its bound holds within any limit, and a bound that lies is found out.
-#include "search/dense_world.hpp"
+#include "dense/dense_world.hpp"
 #include "support/allocation_counter.hpp"
 
+#include <rota/dense/tree/solver.hpp>
 #include <rota/search/best_allocation.hpp>
-#include <rota/search/general.hpp>
 #include <rota/search/reallocate.hpp>
 
 #include <gtest/gtest.h>

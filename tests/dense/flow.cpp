@@ -1,9 +1,9 @@
 // The additive solver against enumeration and GLPK: optimum, canonical choice, certificate; warm against cold; limits.
-#include "search/dense_world.hpp"
+#include "dense/dense_world.hpp"
 #include "support/allocation_counter.hpp"
 
-#include <rota/search/additive.hpp>
-#include <rota/search/ties.hpp>
+#include <rota/dense/flow/solver.hpp>
+#include <rota/dense/ties.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <rota/search/buffer.hpp>
-#include <rota/search/instance.hpp>
-#include <rota/search/kernels.hpp>
-#include <rota/search/ledgers.hpp>
+#include <rota/dense/buffer.hpp>
+#include <rota/dense/flow/detail/kernels.hpp>
+#include <rota/dense/flow/detail/ledgers.hpp>
+#include <rota/dense/flow/detail/membership.hpp>
+#include <rota/dense/instance.hpp>
 #include <rota/search/limits.hpp>
-#include <rota/search/membership.hpp>
 
 #include <algorithm>
 #include <cstddef>
