@@ -3,27 +3,11 @@
 /// Words for violations. A header of its own, since judging needs no strings.
 
 #include <rota/allocation/validate.hpp>
+#include <rota/core/print.hpp>
 
 #include <string>
-#include <type_traits>
 
 namespace rota {
-
-/// Prints a name as its number: the default of what takes a way to name things.
-struct numbered {
-  template <class Id>
-  [[nodiscard]] std::string operator()(Id const& id) const {
-    if constexpr (std::is_enum_v<Id>) {
-      return std::to_string(static_cast<long long>(id));
-    } else if constexpr (std::is_integral_v<Id>) {
-      return std::to_string(id);
-    } else if constexpr (requires { std::to_string(id.value); }) {
-      return std::to_string(id.value);
-    } else {
-      return "?";
-    }
-  }
-};
 
 [[nodiscard]] inline std::string to_string(cardinality c) {
   return std::to_string(c.min()) + ".." + (c.is_bounded() ? std::to_string(c.max()) : "*");
@@ -44,7 +28,7 @@ struct numbered {
 }
 
 /// One violation as a sentence without a full stop. `name(id)` turns agents, plans, tasks and states into strings.
-template <vocabulary V, class Names = numbered>
+template <vocabulary V, class Names = default_names>
 [[nodiscard]] std::string describe(violation<V> const& v, Names const& name = {}) {
   auto agent = [&] { return "agent " + name(v.agent); };
   auto task = [&] { return "task " + name(v.task); };

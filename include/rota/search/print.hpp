@@ -10,7 +10,7 @@
 namespace rota {
 
 /// Why one plan yields nothing, as a sentence without a full stop. `name(id)` turns agents and tasks into strings.
-template <vocabulary V, class Names = numbered>
+template <vocabulary V, class Names = default_names>
 [[nodiscard]] std::string describe(plan_refusal<V> const& r, Names const& name = {}) {
   auto const count = std::to_string(r.count);
   switch (r.why) {
