@@ -71,10 +71,10 @@ std::string explain(plan_refusal<vocabulary> const& r, question const& q) {
     case no_plan_reason::contradictory_cardinalities:
       return "its tasks sum to " + agents(r.count) + ", which its team size " + interval(r.bounds) + " never admits";
     case no_plan_reason::too_few_agents:
-      return "it needs at least " + agents(r.bounds.min()) + ", and there are " + std::to_string(r.count);
+      return "it needs at least " + agents(r.bounds.lower()) + ", and there are " + std::to_string(r.count);
     case no_plan_reason::too_many_agents:
       return "nobody may idle, there are " + agents(r.count) + ", and it has room for " +
-             std::to_string(r.bounds.max());
+             std::to_string(r.bounds.upper());
     case no_plan_reason::task_short:
       return agents(r.count) + " can take on " + task() + ", which needs " + interval(r.bounds);
     case no_plan_reason::agent_without_task: return q.who.name(r.agent) + " can take on no task and may not idle";

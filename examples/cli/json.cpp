@@ -44,9 +44,9 @@ ordered_json list_of(Range const& all, Convert const& convert) {
 
 ordered_json json_of(cardinality c) {
   ordered_json out;
-  out["min"] = c.min();
+  out["min"] = c.lower();
   out["max"] = nullptr;
-  if (c.is_bounded()) out["max"] = c.max();
+  if (c.is_bounded()) out["max"] = c.upper();
   return out;
 }
 

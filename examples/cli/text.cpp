@@ -78,7 +78,7 @@ std::string milliseconds_text(double ms) {
 }
 
 std::string interval(cardinality c) {
-  return std::to_string(c.min()) + ".." + (c.is_bounded() ? std::to_string(c.max()) : "*");
+  return std::to_string(c.lower()) + ".." + (c.is_bounded() ? std::to_string(c.upper()) : "*");
 }
 
 std::string padded(std::string s, std::size_t width) {

@@ -64,12 +64,12 @@ TEST(no_allocation, too_few_and_too_many_agents) {
   fixture f(3, {{0, 2, 2}, {1, 2, 2}});
   EXPECT_EQ(f.refusal().why, reason::too_few_agents);
   EXPECT_EQ(f.refusal().count, 3u);
-  EXPECT_EQ(f.refusal().bounds.min(), 4u);
+  EXPECT_EQ(f.refusal().bounds.lower(), 4u);
   fixture g(5, {{0, 0, 2}, {1, 0, 2}});
   EXPECT_TRUE(g.solve());
   g.raw.idle = false;
   EXPECT_EQ(g.refusal().why, reason::too_many_agents);
-  EXPECT_EQ(g.refusal().bounds.max(), 4u);
+  EXPECT_EQ(g.refusal().bounds.upper(), 4u);
 }
 
 TEST(no_allocation, forbidden_pairs) {

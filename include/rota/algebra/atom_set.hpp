@@ -98,7 +98,7 @@ template <ordered_atom Atom>
 template <ordered_atom Atom>
 [[nodiscard]] constexpr atom_set<Atom> intersect(atom_set<Atom> const& c, atom_set<Atom> const& d) {
   small_vector<Atom, 8> atoms;
-  atoms.append(std::min(c.size(), d.size()),
+  atoms.append((std::min)(c.size(), d.size()),
                [&](Atom* out) { return std::set_intersection(c.begin(), c.end(), d.begin(), d.end(), out); });
   return atom_set<Atom>::from_ascending(std::move(atoms));
 }

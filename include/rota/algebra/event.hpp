@@ -37,6 +37,13 @@ struct overlap {
   friend bool operator==(overlap const&, overlap const&) = default;
 };
 
+template <ordered_atom Atom>
+class event;
+// Declared before the class, whose friend names one specialisation: clang 16 takes a constrained friend template for
+// another function.
+template <ordered_atom Atom>
+[[nodiscard]] constexpr event<Atom> compose(event<Atom> const& e, event<Atom> const& f);
+
 /// An allocation event e = (ϑ⁺, ϑ⁻) of Def. 3: a finitely supported sign function Atoms → {−1, 0, +1}.
 ///
 /// Class invariant: entries strictly ascending by atom, no sign zero; hence ϑ⁺ ∩ ϑ⁻ = ∅. Up to eight entries live inside
@@ -109,8 +116,7 @@ public:
     return e;
   }
 
-  template <ordered_atom A>
-  friend constexpr event<A> compose(event<A> const&, event<A> const&);
+  friend constexpr event compose<Atom>(event const&, event const&);
 
 private:
   static constexpr event single(Atom const& x, sign s) {

@@ -70,7 +70,7 @@ constexpr Entry* merge_evenly(Entry const* x, Entry const* x_end, Entry const* y
     back -= step.left;
   };
   // For so many, the ends cannot meet.
-  auto const safe_steps = [&] { return static_cast<std::size_t>(std::min(x_end - x, y_end - y)) / 2; };
+  auto const safe_steps = [&] { return static_cast<std::size_t>((std::min)(x_end - x, y_end - y)) / 2; };
   for (auto steps = safe_steps(); steps > 1; steps = safe_steps())
     for (; steps > 0; --steps) {
       at_the_front();
@@ -88,7 +88,7 @@ constexpr Entry* merge_into(Entry const* x, Entry const* x_end, Entry const* y, 
   for (; y != y_end; ++y) {
     std::ptrdiff_t reach = 1;
     while (reach < x_end - x && x[reach].atom < y->atom) reach *= 2;
-    auto const* const place = std::lower_bound(x + reach / 2, x + std::min(reach, x_end - x), y->atom,
+    auto const* const place = std::lower_bound(x + reach / 2, x + (std::min)(reach, x_end - x), y->atom,
                                                [](Entry const& entry, auto const& key) { return entry.atom < key; });
     out = std::copy(x, place, out);
     x = place;

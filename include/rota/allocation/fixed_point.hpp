@@ -38,7 +38,7 @@ struct fixed_utility {
 [[nodiscard]] constexpr result<fixed_utility, utility_fault> quantise(double u) noexcept {
   if (!(u >= -max_utility && u <= max_utility)) {
     if (u != u) return refused{utility_fault::not_a_number};
-    if (u > std::numeric_limits<double>::max()) return refused{utility_fault::positive_infinity};
+    if (u > (std::numeric_limits<double>::max)()) return refused{utility_fault::positive_infinity};
     if (u < std::numeric_limits<double>::lowest()) return refused{utility_fault::negative_infinity};
     return refused{utility_fault::out_of_range};
   }
@@ -57,7 +57,7 @@ struct fixed_utility {
 /// total ← total + term; false and unchanged where 64 bits do not hold the sum.
 [[nodiscard]] constexpr bool checked_add(fixed_utility& total, fixed_utility term) noexcept {
   using limits = std::numeric_limits<std::int64_t>;
-  if (term.units > 0 ? total.units > limits::max() - term.units : total.units < limits::min() - term.units)
+  if (term.units > 0 ? total.units > (limits::max)() - term.units : total.units < (limits::min)() - term.units)
     return false;
   total.units += term.units;
   return true;

@@ -19,7 +19,7 @@ struct hysteresis {
 [[nodiscard]] constexpr fixed_utility margin_of(double h) noexcept {
   ROTA_ASSERT(h >= 0);
   auto const fixed = quantise(h);
-  return fixed ? fixed.value() : fixed_utility{std::numeric_limits<std::int64_t>::max()};
+  return fixed ? fixed.value() : fixed_utility{(std::numeric_limits<std::int64_t>::max)()};
 }
 
 /// Whether `best` beats `current` by more than the margin. Exact; never overflows.

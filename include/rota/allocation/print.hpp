@@ -10,7 +10,7 @@
 namespace rota {
 
 [[nodiscard]] inline std::string to_string(cardinality c) {
-  return std::to_string(c.min()) + ".." + (c.is_bounded() ? std::to_string(c.max()) : "*");
+  return std::to_string(c.lower()) + ".." + (c.is_bounded() ? std::to_string(c.upper()) : "*");
 }
 
 [[nodiscard]] inline std::string to_string(utility_fault f) {

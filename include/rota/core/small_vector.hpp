@@ -178,7 +178,7 @@ private:
   }
   static constexpr T* obtain(std::size_t count) {
     if (!needs_no_filling || std::is_constant_evaluated()) return new T[count]{};
-    constexpr auto most = std::numeric_limits<std::size_t>::max();
+    constexpr auto most = (std::numeric_limits<std::size_t>::max)();
     return static_cast<T*>(::operator new(count <= most / sizeof(T) ? count * sizeof(T) : most));
   }
   static constexpr void release(T* items) noexcept {

@@ -39,6 +39,6 @@ struct instant {
 [[nodiscard]] constexpr double to_milliseconds(duration d) noexcept { return static_cast<double>(d.ns) * 1e-6; }
 
 /// Later than every instant that occurs.
-inline constexpr instant never{std::numeric_limits<std::int64_t>::max()};
+inline constexpr instant never{(std::numeric_limits<std::int64_t>::max)()};
 
 }  // namespace rota

@@ -18,7 +18,7 @@ using slot = std::uint32_t;
 /// An agent as the number of its row.
 using row_index = std::uint32_t;
 
-inline constexpr slot no_slot = std::numeric_limits<slot>::max();
+inline constexpr slot no_slot = (std::numeric_limits<slot>::max)();
 
 /// Marks a pair that does not exist. Forbidden is not expensive: it is further away than any sum of utilities reaches.
 inline constexpr std::int64_t absent = -(std::int64_t{1} << 62);
@@ -30,11 +30,11 @@ inline constexpr std::int64_t max_reach = std::int64_t{1} << 55;
 inline constexpr std::int64_t max_total = std::int64_t{1} << 60;
 
 /// Whether n agents and s slots of utilities up to `magnitude` keep every sum inside 64 bits.
-[[nodiscard]] constexpr bool fits(std::size_t agents, std::size_t slots, std::uint64_t magnitude) noexcept {
+[[nodiscard]] constexpr bool fits(std::size_t agents, std::size_t slot_count, std::uint64_t magnitude) noexcept {
   auto const within = [&](std::uint64_t n, std::int64_t limit) {
     return n == 0 || magnitude <= static_cast<std::uint64_t>(limit) / n;
   };
-  return within(agents, max_total) && within(slots + 2, max_reach);
+  return within(agents, max_total) && within(slot_count + 2, max_reach);
 }
 
 /// How many agents a slot must and can take, both ends included.
@@ -56,7 +56,7 @@ struct instance {
   std::span<unsigned char const> taking_part{};  ///< 0: the row is kept, but its agent is put nowhere
   bool unique = false;  ///< known: no two assignments have the same total, so ties are not sought
 
-  [[nodiscard]] std::size_t slots() const noexcept { return bounds.size(); }
+  [[nodiscard]] std::size_t slot_count() const noexcept { return bounds.size(); }
   [[nodiscard]] std::int64_t const* row(std::size_t agent) const noexcept {
     return utility.data() + agent * bounds.size();
   }
@@ -75,7 +75,7 @@ struct instance {
     if (assignment[a] == no_slot || !in.present(a, assignment[a])) return std::nullopt;
     sum += in.at(a, assignment[a]);
   }
-  for (std::size_t s = 0; s < in.slots(); ++s) {
+  for (std::size_t s = 0; s < in.slot_count(); ++s) {
     auto const count = static_cast<std::size_t>(std::count(assignment.begin(), assignment.end(), s));
     if (count < in.bounds[s].lower || count > in.bounds[s].upper) return std::nullopt;
   }

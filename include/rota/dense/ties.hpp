@@ -24,21 +24,21 @@ public:
   /// For no agents and no slots.
   tie_rule() = default;
   /// For n agents and s slots of utilities up to `magnitude`. @pre fits(n, s, magnitude)
-  tie_rule(std::size_t agents, std::size_t slots, std::uint64_t magnitude) noexcept
-      : agents_(static_cast<unsigned>(agents)), slots_(slots) {
+  tie_rule(std::size_t agents, std::size_t slot_count, std::uint64_t magnitude) noexcept
+      : agents_(static_cast<unsigned>(agents)), slots_(slot_count) {
     auto const bits = [](std::uint64_t n) { return static_cast<unsigned>(std::bit_width(n)); };
     auto const size = bits(magnitude);  // utilities are below 2^size
-    auto const reach = std::max(bits(slots + 2), std::max(bits(agents), 5u) - 5);
+    auto const reach = (std::max)(bits(slot_count + 2), (std::max)(bits(agents), 5u) - 5);
     unsigned const spare =
         size + reach >= 55 ? 0 : 55 - size - reach;  // 55: max_reach, and max_total is 2^5 times that
     std::uint64_t all = 1;
     unsigned digits = 0;
-    for (; digits < agents && all <= std::uint64_t{1} << 54; ++digits) all *= std::max<std::size_t>(slots, 1);
+    for (; digits < agents && all <= std::uint64_t{1} << 54; ++digits) all *= std::max<std::size_t>(slot_count, 1);
     if (digits == agents && bits(all - 1) <= spare) {
       shift_ = bits(all - 1);
       unique_ = true;
     } else if (auto const sum = bits(agents); spare >= sum + 4) {
-      noise_ = std::min(spare - sum, 20u);
+      noise_ = (std::min)(spare - sum, 20u);
       shift_ = noise_ + sum;
     }
   }

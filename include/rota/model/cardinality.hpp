@@ -17,10 +17,10 @@ struct empty_interval {
 
 /// ξ(p, τ) = [n₁, n₂]: how many agents may take on a task, both ends included; n₂ may be `unbounded`.
 ///
-/// Class invariant: min() ≤ max().
+/// Class invariant: lower() ≤ upper().
 class cardinality {
 public:
-  static constexpr std::uint32_t unbounded = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t unbounded = (std::numeric_limits<std::uint32_t>::max)();
 
   /// [0, ∞), which restricts nothing.
   constexpr cardinality() = default;
@@ -33,8 +33,8 @@ public:
     return cardinality{min, max};
   }
 
-  [[nodiscard]] constexpr std::uint32_t min() const noexcept { return min_; }
-  [[nodiscard]] constexpr std::uint32_t max() const noexcept { return max_; }
+  [[nodiscard]] constexpr std::uint32_t lower() const noexcept { return min_; }
+  [[nodiscard]] constexpr std::uint32_t upper() const noexcept { return max_; }
   [[nodiscard]] constexpr bool is_bounded() const noexcept { return max_ != unbounded; }
   /// n₁ ≤ n ≤ n₂.
   [[nodiscard]] constexpr bool admits(std::size_t n) const noexcept {

@@ -32,18 +32,18 @@ template <vocabulary V, class Beliefs>
   solution<V> best;
   no_allocation<V> none;
   plan<V, Beliefs> const* winner = nullptr;
-  std::int64_t bound = std::numeric_limits<std::int64_t>::min();
+  std::int64_t bound = (std::numeric_limits<std::int64_t>::min)();
   auto const plans = problem.type.plans();
   if (work.plans.size() < plans.size()) work.plans.resize(plans.size());
   for (std::size_t i = 0; i < plans.size(); ++i) {
     auto const& p = plans[i];
     auto share = budget;
-    share.nodes = (budget.nodes - std::min(budget.nodes, best.work.nodes)) / (plans.size() - i);
+    share.nodes = (budget.nodes - (std::min)(budget.nodes, best.work.nodes)) / (plans.size() - i);
     detail::plan_search<V, Beliefs> search(problem, p, work, work.plans[i]);
     auto const outcome = search.run(share, best.work);
     if (!best.ignored) best.ignored = search.ignored();
     if (!best.lie) best.lie = search.lie();
-    bound = std::max(bound, outcome.bound);
+    bound = (std::max)(bound, outcome.bound);
     if (!outcome.utility) {
       if (winner == nullptr) none.plans.push_back(outcome.refusal);
       continue;

@@ -33,14 +33,14 @@ public:
   /// too many of them, or too great ones. @pre write()
   bool write_pairs() {
     std::size_t const n = problem_.participants.size();
-    std::size_t const slots = plan_.tasks().size() + 1;
-    if (!dense::pair_tables::suit(n, slots)) return false;
-    memory_.pairs.resize(n, slots);
+    std::size_t const slot_count = plan_.tasks().size() + 1;
+    if (!dense::pair_tables::suit(n, slot_count)) return false;
+    memory_.pairs.resize(n, slot_count);
     bool changed = false;
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i + 1; j < n; ++j)
-        for (std::size_t x = 0; x + 1 < slots; ++x)
-          for (std::size_t y = 0; y + 1 < slots; ++y) changed |= memory_.pairs.put(i, x, j, y, rate(i, x, j, y));
+        for (std::size_t x = 0; x + 1 < slot_count; ++x)
+          for (std::size_t y = 0; y + 1 < slot_count; ++y) changed |= memory_.pairs.put(i, x, j, y, rate(i, x, j, y));
     if (changed) memory_.settled = false;
     return memory_.settled || memory_.pairs.finish(memory_.units);
   }
@@ -97,16 +97,16 @@ private:
     std::uint64_t least = 0;
     std::uint64_t most = 0;
     for (plan_task<V> const& t : tasks) {
-      least += t.bounds.min();
-      most += t.bounds.is_bounded() ? t.bounds.max() : unlimited;
+      least += t.bounds.lower();
+      most += t.bounds.is_bounded() ? t.bounds.upper() : unlimited;
     }
     cardinality const size = plan_.team_size();
-    std::uint64_t const size_max = size.is_bounded() ? size.max() : unlimited;
+    std::uint64_t const size_max = size.is_bounded() ? size.upper() : unlimited;
     if (least > size_max) return fail(no_plan_reason::contradictory_cardinalities, least, size);
-    if (most < size.min()) return fail(no_plan_reason::contradictory_cardinalities, most, size);
-    std::uint64_t const needed = std::max<std::uint64_t>(least, size.min());
+    if (most < size.lower()) return fail(no_plan_reason::contradictory_cardinalities, most, size);
+    std::uint64_t const needed = std::max<std::uint64_t>(least, size.lower());
     if (n < needed) return fail(no_plan_reason::too_few_agents, n, {clip(needed), cardinality::unbounded});
-    std::uint64_t const room = std::min(most, size_max);
+    std::uint64_t const room = (std::min)(most, size_max);
     bool const may_idle = problem_.idle == idling::allowed;
     if (!may_idle && n > room) return fail(no_plan_reason::too_many_agents, n, {0, clip(room)});
 
@@ -119,16 +119,16 @@ private:
     };
     for (std::size_t s = 0; s < tasks.size(); ++s) {
       auto const& b = tasks[s].bounds;
-      set(s, b.min(), std::min<std::uint64_t>(b.is_bounded() ? b.max() : unlimited, n));
+      set(s, b.lower(), std::min<std::uint64_t>(b.is_bounded() ? b.upper() : unlimited, n));
     }
-    set(tasks.size(), n - std::min<std::uint64_t>(n, size_max), may_idle ? n - size.min() : 0);
+    set(tasks.size(), n - std::min<std::uint64_t>(n, size_max), may_idle ? n - size.lower() : 0);
     return true;
   }
 
   /// The utility matrix, with forbidden pairs absent.
   bool write_utilities() {
     std::size_t const n = problem_.participants.size();
-    std::size_t const slots = plan_.tasks().size() + 1;
+    std::size_t const slot_count = plan_.tasks().size() + 1;
     auto const cost = weigh(1, problem_.change_cost);
     if (!cost || cost.value().units < 0) {
       refusal_.fault = cost ? utility_fault::negative : cost.error();
@@ -137,37 +137,37 @@ private:
     }
     cost_ = cost.value().units;
     auto& m = memory_;
-    bool const anew = m.units.size() != n * slots || !m.seen;
+    bool const anew = m.units.size() != n * slot_count || !m.seen;
     if (anew) {
-      m.units.assign(n * slots, dense::absent);
-      m.keys.resize(n * slots);
+      m.units.assign(n * slot_count, dense::absent);
+      m.keys.resize(n * slot_count);
     }
     m.changed.clear();
-    row_.resize(slots);
+    row_.resize(slot_count);
     std::uint64_t greatest = 0;
     std::size_t greatest_at = 0;
     for (std::size_t a = 0; a < n; ++a) {
       if (auto const magnitude = write_row(a); magnitude > greatest) greatest = magnitude, greatest_at = a;
-      auto const old = m.units.begin() + static_cast<std::ptrdiff_t>(a * slots);
+      auto const old = m.units.begin() + static_cast<std::ptrdiff_t>(a * slot_count);
       if (std::equal(row_.begin(), row_.end(), old)) continue;
       std::copy(row_.begin(), row_.end(), old);
       m.changed.push_back(static_cast<dense::row_index>(a));
     }
     if (!m.changed.empty()) m.seen = m.solved = m.settled = false;
-    if (!dense::fits(n, slots, greatest)) {
+    if (!dense::fits(n, slot_count, greatest)) {
       refusal_.agent = problem_.participants[greatest_at];
       refusal_.fault = utility_fault::out_of_range;
       refusal_.why = no_plan_reason::utilities_too_great;
       m.seen = m.solved = m.settled = false;
       return false;
     }
-    break_ties(n, slots, greatest, anew);
-    return every_task_served(n, slots) && every_agent_served(n, slots);
+    break_ties(n, slot_count, greatest, anew);
+    return every_task_served(n, slot_count) && every_agent_served(n, slot_count);
   }
 
-  void break_ties(std::size_t n, std::size_t slots, std::uint64_t greatest, bool anew) {
+  void break_ties(std::size_t n, std::size_t slot_count, std::uint64_t greatest, bool anew) {
     auto& m = memory_;
-    dense::tie_rule const ties(n, slots, greatest);
+    dense::tie_rule const ties(n, slot_count, greatest);
     bool const all = anew || !(ties == m.ties);
     m.ties = ties;
     if (all) {
@@ -175,7 +175,7 @@ private:
       for (std::size_t a = 0; a < n; ++a) m.changed[a] = static_cast<dense::row_index>(a);
       m.seen = m.solved = m.settled = false;
     }
-    for (auto const a : m.changed) ties.keys(a, m.units.data() + a * slots, m.keys.data() + a * slots);
+    for (auto const a : m.changed) ties.keys(a, m.units.data() + a * slot_count, m.keys.data() + a * slot_count);
   }
 
   /// One agent's utilities into row_. @return the greatest magnitude
@@ -188,7 +188,7 @@ private:
     std::uint64_t greatest = 0;
     auto const write = [&](std::size_t s, std::int64_t units) {
       // With the cost, so that sums fit both with and without it: what an agent gains by moving may be all its cost.
-      greatest = std::max(greatest, static_cast<std::uint64_t>((units < 0 ? -units : units) + cost_));
+      greatest = (std::max)(greatest, static_cast<std::uint64_t>((units < 0 ? -units : units) + cost_));
       row_[s] = s != now ? units - cost_ : units;
     };
     for (std::size_t s = 0; s < tasks.size(); ++s) {
@@ -207,8 +207,9 @@ private:
 
   /// What all pairwise parts of U_p say about two atoms; 0 where one of them is out of the question.
   std::int64_t rate(std::size_t i, std::size_t x, std::size_t j, std::size_t y) {
-    std::size_t const slots = plan_.tasks().size() + 1;
-    if (memory_.units[i * slots + x] == dense::absent || memory_.units[j * slots + y] == dense::absent) return 0;
+    std::size_t const slot_count = plan_.tasks().size() + 1;
+    if (memory_.units[i * slot_count + x] == dense::absent || memory_.units[j * slot_count + y] == dense::absent)
+      return 0;
     auto const one = atom(i, x);
     auto const other = atom(j, y);
     fixed_utility total;
@@ -241,11 +242,11 @@ private:
     return std::nullopt;
   }
 
-  bool every_task_served(std::size_t n, std::size_t slots) {
-    for (std::size_t s = 0; s + 1 < slots; ++s) {
+  bool every_task_served(std::size_t n, std::size_t slot_count) {
+    for (std::size_t s = 0; s + 1 < slot_count; ++s) {
       if (memory_.bounds[s].lower == 0) continue;
       std::size_t able = 0;
-      for (std::size_t a = 0; a < n; ++a) able += memory_.units[a * slots + s] != dense::absent;
+      for (std::size_t a = 0; a < n; ++a) able += memory_.units[a * slot_count + s] != dense::absent;
       if (able >= memory_.bounds[s].lower) continue;
       if (blame_utility()) return false;
       refusal_.task = plan_.tasks()[s].task;
@@ -254,10 +255,10 @@ private:
     return true;
   }
 
-  bool every_agent_served(std::size_t n, std::size_t slots) {
+  bool every_agent_served(std::size_t n, std::size_t slot_count) {
     for (std::size_t a = 0; a < n; ++a) {
-      auto const row = memory_.units.begin() + static_cast<std::ptrdiff_t>(a * slots);
-      if (std::any_of(row, row + static_cast<std::ptrdiff_t>(slots), [](auto u) { return u != dense::absent; }))
+      auto const row = memory_.units.begin() + static_cast<std::ptrdiff_t>(a * slot_count);
+      if (std::any_of(row, row + static_cast<std::ptrdiff_t>(slot_count), [](auto u) { return u != dense::absent; }))
         continue;
       if (blame_utility()) return false;
       refusal_.agent = problem_.participants[a];

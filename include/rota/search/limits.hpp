@@ -31,7 +31,7 @@ namespace dense {
 
 /// When a solver gives up proving: after so many steps (each says what a step is), or when asked to stop.
 struct work_limit {
-  std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t steps = (std::numeric_limits<std::uint64_t>::max)();
   stop_request stop{};
 };
 
@@ -43,7 +43,7 @@ struct search_budget {
   /// Placements tried by branch and bound, over all plans of a type. Additive utilities without a precondition need none.
   std::uint64_t nodes = std::uint64_t{1} << 20;
   /// Arcs looked at for additive utilities, a plan. Enough for any team that decides within a tick.
-  std::uint64_t relaxations = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t relaxations = (std::numeric_limits<std::uint64_t>::max)();
   stop_request stop{};
   /// Whether a user's bound is checked where it cuts: one of the allocations it leaves out is evaluated.
 #ifdef NDEBUG

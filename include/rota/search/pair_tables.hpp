@@ -16,16 +16,16 @@ namespace rota::dense {
 /// Write with `resize`, `put` for all pairs, `finish`. Memory O(n²·m²) for n agents and m slots.
 class pair_tables {
 public:
-  [[nodiscard]] static constexpr bool suit(std::size_t agents, std::size_t slots) noexcept {
-    return agents <= max_pairwise_agents && slots <= max_pairwise_slots;
+  [[nodiscard]] static constexpr bool suit(std::size_t agents, std::size_t slot_count) noexcept {
+    return agents <= max_pairwise_agents && slot_count <= max_pairwise_slots;
   }
 
   /// All 0, unless they have that size already.
-  void resize(std::size_t agents, std::size_t slots) {
-    if (agents_ == agents && slots_ == slots) return;
+  void resize(std::size_t agents, std::size_t slot_count) {
+    if (agents_ == agents && slots_ == slot_count) return;
     agents_ = agents;
-    slots_ = slots;
-    worth_.assign(agents * (agents - 1) / 2 * slots * slots, 0);
+    slots_ = slot_count;
+    worth_.assign(agents * (agents - 1) / 2 * slot_count * slot_count, 0);
   }
   /// w_ij(x, y) ← worth, or `absent` to forbid it. @return whether that is anything new @pre i < j
   bool put(std::size_t i, std::size_t x, std::size_t j, std::size_t y, std::int64_t worth) {
@@ -48,10 +48,10 @@ public:
         for (std::size_t x = 0; x < slots_; ++x) {
           std::int64_t best = forbidden;
           for (std::size_t y = 0; y < slots_; ++y)
-            if (unary[j * slots_ + y] != absent) best = std::max(best, worth(i, x, j, y));
+            if (unary[j * slots_ + y] != absent) best = (std::max)(best, worth(i, x, j, y));
           auto* const with = &most_[(i * slots_ + x) * (agents_ + 1)];
           with[j] = with[j + 1] + best;
-          if (unary[i * slots_ + x] != absent) most = std::max(most, best);
+          if (unary[i * slots_ + x] != absent) most = (std::max)(most, best);
         }
         rest_[i] += most;
       }
@@ -65,7 +65,7 @@ public:
     for (std::size_t i = 0; i < agents_; ++i) {
       std::uint64_t most = 0;
       for (auto const u : unary.subspan(i * slots_, slots_))
-        if (u != absent) most = std::max(most, static_cast<std::uint64_t>(u < 0 ? -u : u));
+        if (u != absent) most = (std::max)(most, static_cast<std::uint64_t>(u < 0 ? -u : u));
       if (most > left) return false;
       left -= most;
     }
@@ -102,7 +102,7 @@ private:
         bool forbids = false;
         for (auto const w : table) {
           forbids |= w == absent;
-          if (w != absent) greatest = std::max(greatest, static_cast<std::uint64_t>(w < 0 ? -w : w));
+          if (w != absent) greatest = (std::max)(greatest, static_cast<std::uint64_t>(w < 0 ? -w : w));
         }
         if (greatest > static_cast<std::uint64_t>(max_pairwise_total) - magnitude_) return false;
         magnitude_ += greatest;

@@ -81,7 +81,7 @@ private:
     out.refusal = form_.refusal();
     out.refusal.plan = plan_.id();
     bool const searched = out.refusal.why != no_plan_reason::utilities_too_great;
-    out.bound = searched ? std::numeric_limits<std::int64_t>::min() : dense::no_bound;
+    out.bound = searched ? (std::numeric_limits<std::int64_t>::min)() : dense::no_bound;
     return out;
   }
   outcome refuse(no_plan_reason why) {
@@ -166,7 +166,7 @@ private:
     }
     auto const& found = m.together;
     if (found.found && utility_of(m.placed, found.value) >= 0)  // short of proving it canonical, it is not optimal
-      return accept(m.placed, found.value, found.complete ? found.value : std::max(found.bound, found.value + 1));
+      return accept(m.placed, found.value, found.complete ? found.value : (std::max)(found.bound, found.value + 1));
     if (found.complete && !found.found) {
       coupling_fault_ = form_.pair_fault();
       return coupling_refused();
@@ -189,7 +189,7 @@ private:
 
   outcome branch(dense::instance const& in, dense::additive_outcome const& first, search_budget const& budget,
                  search_work& done) {
-    price_in(in.agents, in.slots());
+    price_in(in.agents, in.slot_count());
     dense::tree_options options;
     options.limit = {budget.nodes, budget.stop};
     options.audit = budget.audit;
@@ -273,7 +273,7 @@ private:
     if (form_.change_cost() == 0) return value;  // negative totals are judged at the end
     auto const utility = utility_of(assignment, coupled() ? value : units(value));
     if (utility >= 0) return value;
-    most_negative_ = std::max(most_negative_.value_or(utility), utility);
+    most_negative_ = (std::max)(most_negative_.value_or(utility), utility);
     return std::nullopt;
   }
   std::optional<std::int64_t> probe(std::span<dense::slot const> assignment, std::int64_t sum) override {
@@ -323,24 +323,24 @@ private:
   }
 
   /// What agents from one on add at most, at the prices of the slots: tight where the additive optimum is all there is.
-  void price_in(std::size_t agents, std::size_t slots) {
+  void price_in(std::size_t agents, std::size_t slot_count) {
     auto const price = memory_.solver.prices();
     work_.most.assign(agents + 1, 0);
-    for (std::size_t k = 0; k < slots; ++k) {
+    for (std::size_t k = 0; k < slot_count; ++k) {
       auto const [lower, upper] = memory_.solver.bounds(k);
       work_.most[agents] += price[k] * static_cast<std::int64_t>(price[k] > 0 ? upper : lower);
     }
     for (std::size_t a = agents; a-- > 0;) {
-      auto const* const row = memory_.keys.data() + a * slots;
-      auto const best = dense::kernel::best(row, price.data(), slots);
+      auto const* const row = memory_.keys.data() + a * slot_count;
+      auto const best = dense::kernel::best(row, price.data(), slot_count);
       work_.most[a] = work_.most[a + 1] + row[best] - price[best];
     }
   }
   [[nodiscard]] std::int64_t bound_alone(std::span<dense::slot const> prefix) const {
-    auto const slots = plan_.tasks().size() + 1;
+    auto const slot_count = plan_.tasks().size() + 1;
     auto const price = memory_.solver.prices();
     auto most = work_.most[prefix.size()];
-    for (std::size_t a = 0; a < prefix.size(); ++a) most += memory_.keys[a * slots + prefix[a]] - price[prefix[a]];
+    for (std::size_t a = 0; a < prefix.size(); ++a) most += memory_.keys[a * slot_count + prefix[a]] - price[prefix[a]];
     return most;
   }
 
@@ -372,7 +372,7 @@ private:
         }
       }
     });
-    return nothing ? std::numeric_limits<std::int64_t>::min() : known ? total.units : dense::no_bound;
+    return nothing ? (std::numeric_limits<std::int64_t>::min)() : known ? total.units : dense::no_bound;
   }
 
   /// Agents of one kind with equal rows are interchangeable, unless something else could tell them apart.
@@ -387,7 +387,7 @@ private:
     for (std::size_t a = 0; a < in.agents; ++a) {
       work_.twin[a] = static_cast<dense::row_index>(a);
       for (std::size_t b = a; b-- > 0 && work_.twin[a] == a;)
-        if (std::equal(in.row(a), in.row(a) + in.slots(), in.row(b)) && same_kind(a, b))
+        if (std::equal(in.row(a), in.row(a) + in.slot_count(), in.row(b)) && same_kind(a, b))
           work_.twin[a] = static_cast<dense::row_index>(b);
     }
     return true;

@@ -17,9 +17,9 @@ template <vocabulary V, class Names = default_names>
   case no_plan_reason::contradictory_cardinalities:
     return "the tasks' cardinalities sum to " + count + " agents, but the plan bears " + to_string(r.bounds);
   case no_plan_reason::too_few_agents:
-    return count + " agents take part, " + std::to_string(r.bounds.min()) + " are needed";
+    return count + " agents take part, " + std::to_string(r.bounds.lower()) + " are needed";
   case no_plan_reason::too_many_agents:
-    return count + " agents take part, nobody may idle, and there is room for " + std::to_string(r.bounds.max());
+    return count + " agents take part, nobody may idle, and there is room for " + std::to_string(r.bounds.upper());
   case no_plan_reason::task_short:
     return count + " agents may take on task " + name(r.task) + ", which needs " + to_string(r.bounds);
   case no_plan_reason::agent_without_task: return "agent " + name(r.agent) + " may neither take on a task nor idle";

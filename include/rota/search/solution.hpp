@@ -59,8 +59,8 @@ struct solution {
 /// Why a plan has no valid allocation, or none that was found.
 enum class no_plan_reason : unsigned char {
   contradictory_cardinalities,  ///< the tasks' bounds sum to `count` agents, which the team size `bounds` never admits
-  too_few_agents,               ///< `count` take part, `bounds.min()` are needed
-  too_many_agents,              ///< `count` take part, nobody may idle, and there is room for `bounds.max()`
+  too_few_agents,               ///< `count` take part, `bounds.lower()` are needed
+  too_many_agents,              ///< `count` take part, nobody may idle, and there is room for `bounds.upper()`
   task_short,                   ///< `count` agents may take on `task`, which needs `bounds`
   agent_without_task,           ///< `agent` may neither take on any task nor idle
   pairs_contradict,  ///< each agent and task alone could be served, but not all (`agent` or `task`: one left over)

@@ -99,8 +99,8 @@ public:
       f.two_cycles_ms += to_milliseconds(*mine.two - *mine.first);
       f.four_cycles_ms += to_milliseconds(*mine.four - *mine.first);
     }
-    f.two_detected_ms += to_milliseconds(std::min(*robots_[0].two, *robots_[1].two) - *fight_);
-    f.four_detected_ms += to_milliseconds(std::min(*robots_[0].four, *robots_[1].four) - *fight_);
+    f.two_detected_ms += to_milliseconds((std::min)(*robots_[0].two, *robots_[1].two) - *fight_);
+    f.four_detected_ms += to_milliseconds((std::min)(*robots_[0].four, *robots_[1].four) - *fight_);
   }
 
 private:

@@ -144,7 +144,7 @@ private:
       if (conflict != conflict_) turn(conflict, now_);
     }
     if (now_ < begin_ && begin_ <= t && conflict_) episode_ = begin_;
-    if (conflict_) figures_.in_conflict = figures_.in_conflict + std::max(t - std::max(now_, begin_), duration{});
+    if (conflict_) figures_.in_conflict = figures_.in_conflict + (std::max)(t - (std::max)(now_, begin_), duration{});
     now_ = t;
   }
 

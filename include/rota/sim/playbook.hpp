@@ -58,7 +58,7 @@ struct playbook {
   for (auto const& t : plan.tasks)
     if (t.name.find("Attack") != std::string::npos) return t.id;
   for (auto const& t : plan.tasks)
-    if (t.bounds.min() > 0) return t.id;
+    if (t.bounds.lower() > 0) return t.id;
   return plan.tasks.front().id;
 }
 

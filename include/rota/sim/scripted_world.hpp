@@ -196,10 +196,10 @@ private:
   }
   /// Half of the phantoms lie near the robot that sees them, half anywhere, the first two metres of audience included.
   void begin_phantom() {
-    bool const near = chance(engine_, 0.5);
+    bool const nearby = chance(engine_, 0.5);
     robot_state& r = state_.robots[phantom_.robot];
-    r.phantom = near ? around(r.position, options_.phantom)
-                     : somewhere(field_length / 2 + metres(2), field_width / 2 + metres(2));
+    r.phantom = nearby ? around(r.position, options_.phantom)
+                       : somewhere(field_length / 2 + metres(2), field_width / 2 + metres(2));
   }
 
   void kick() {
@@ -222,8 +222,8 @@ private:
   /// The truly nearest robot goes to the ball, the others keep the formation.
   void move_team() {
     if (!fight_.active && now_ >= next_chase_) {
-      std::size_t const near = nearest(robots());
-      if (gap(near) + metres(0.5) < gap(chaser_)) chaser_ = near;
+      std::size_t const closest = nearest(robots());
+      if (gap(closest) + metres(0.5) < gap(chaser_)) chaser_ = closest;
       next_chase_ = now_ + milliseconds(500);
     }
     for (std::size_t i = 0; i < robots(); ++i) {

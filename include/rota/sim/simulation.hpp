@@ -197,7 +197,7 @@ private:
       send(i, *std::move(said));
       tell(observe, i, plan ? happening::said_plan : happening::said_claim, {});
     }
-    instant const due = std::max(r.mind.next_due(), local + nanoseconds(1));
+    instant const due = (std::max)(r.mind.next_due(), local + nanoseconds(1));
     if (r.wakeup != never && due >= r.due) return;
     r.due = due;
     r.wakeup = r.clock.global(due);

@@ -67,7 +67,7 @@ public:
   /// @pre `!contradicts(c)`
   claim_outcome hear(claim<V> const& c, claim_stamp<V> const& mine, instant now) {
     if (leading() && c.stamp < claim_.stamp) {
-      next_repeat_ = std::min(next_repeat_, now);
+      next_repeat_ = (std::min)(next_repeat_, now);
       return claim_outcome::outranked;
     }
     if (auto const* last = ended(c.leader); last && identity_of(c) <= *last) return claim_outcome::expired;
@@ -75,7 +75,7 @@ public:
       identity const current = identity_of(claim_);
       if (identity_of(c) < current) return claim_outcome::expired;
       if (identity_of(c) == current) {
-        expiry_ = std::min(expiry_, now + c.remaining);
+        expiry_ = (std::min)(expiry_, now + c.remaining);
         bool const again = phase_ == phase::released;
         bool const newer = c.version > claim_.version;
         phase_ = phase::obeying;
@@ -164,7 +164,7 @@ private:
   void bury(agent_id leader, identity last) {
     auto* where = std::lower_bound(graves_.begin(), graves_.end(), leader, before);
     if (where == graves_.end() || !(where->leader == leader)) where = graves_.insert(where, {leader, {}});
-    where->last = std::max(where->last, last);
+    where->last = (std::max)(where->last, last);
   }
 
   phase phase_ = phase::none;

@@ -224,7 +224,7 @@ public:
   [[nodiscard]] instant next_due() const noexcept {
     instant due = next_plan_message_;
     for (track const& t : tracks_)
-      if (t.executing) due = std::min(due, t.rule.next_due());
+      if (t.executing) due = (std::min)(due, t.rule.next_due());
     return due;
   }
 

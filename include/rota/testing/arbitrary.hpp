@@ -179,7 +179,7 @@ struct rc::Arbitrary<rota::dense_event<U>> {
   static Gen<rota::dense_event<U>> arbitrary() {
     return rota::testing::made_of<rota::dense_event<U>>(-1, 1, [](std::vector<int> const& signs) {
       typename rota::dense_event<U>::set_type plus, minus;
-      for (std::size_t i = 0; i < std::min(signs.size(), U::size()); ++i) {
+      for (std::size_t i = 0; i < (std::min)(signs.size(), U::size()); ++i) {
         auto const x = U::atom_at(i % 2 == 0 ? i / 2 : U::size() - 1 - i / 2);
         if (signs[i] != 0) (void)(signs[i] > 0 ? plus : minus).insert(x);
       }

@@ -133,11 +133,11 @@ private:
 
   void check_team_size(alica::plan const& p, Cursor const& top) {
     std::uint64_t least = 0;
-    for (entry_point const& e : p.entry_points) least += e.bounds.min();
-    if (p.team_size.is_bounded() && least > p.team_size.max())
+    for (entry_point const& e : p.entry_points) least += e.bounds.lower();
+    if (p.team_size.is_bounded() && least > p.team_size.upper())
       out_.say(severity::warning, top.place(), p.id,
                "no team can execute the plan: its tasks need " + std::to_string(least) +
-                   " agents, and it admits at most " + std::to_string(p.team_size.max()));
+                   " agents, and it admits at most " + std::to_string(p.team_size.upper()));
   }
 
   void read_plan_type(Cursor const& top, identity id) {

@@ -46,7 +46,7 @@ public:
   }
   /// "LINE:COLUMN" of an offset, both from 1, columns in bytes. O(log n).
   [[nodiscard]] std::string place(std::size_t offset) const {
-    offset = std::min(offset, size_);
+    offset = (std::min)(offset, size_);
     auto const after = std::lower_bound(newlines_.begin(), newlines_.end(), offset);
     auto const start = after == newlines_.begin() ? 0 : *(after - 1) + 1;
     return std::to_string(after - newlines_.begin() + 1) + ':' + std::to_string(offset - start + 1);
@@ -126,7 +126,7 @@ struct reference {
 [[nodiscard]] inline std::string in_quotes(std::string_view s) {
   constexpr std::size_t limit = 60;
   std::string out = "\"";
-  auto cut = std::min(s.size(), limit);
+  auto cut = (std::min)(s.size(), limit);
   while (cut > 0 && cut < s.size() && (static_cast<unsigned char>(s[cut]) & 0xC0U) == 0x80) --cut;
   out += s.substr(0, cut);
   return out + (cut < s.size() ? "…\"" : "\"");

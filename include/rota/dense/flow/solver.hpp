@@ -77,13 +77,13 @@ private:
   using value = slot_graph::value;
 
   additive_outcome begin(instance const& in, work_limit const& limit) {
-    ROTA_ASSERT(in.utility.size() == in.agents * in.slots());
+    ROTA_ASSERT(in.utility.size() == in.agents * in.slot_count());
     ROTA_ASSERT(in.taking_part.empty() || in.taking_part.size() == in.agents);
     warm_ = false;
     agents_ = 0;
     for (std::size_t a = 0; a < in.agents; ++a) agents_ += in.takes_part(a);
     if (auto const out = tighten(in)) return *out;
-    if (in.slots() == 0) return {};
+    if (in.slot_count() == 0) return {};
     if (!opening_.play(graph_, agents_, limit)) return refused(additive_end::agent_stuck, opening_.homeless());
     return finish(in, limit, false);
   }
@@ -122,12 +122,12 @@ private:
     for (auto const b : in.bounds) least += b.lower, most += b.upper;
     auto const n = static_cast<value>(agents_);
     if (n > most) return refused(additive_end::agent_stuck, first_taking_part(in));
-    for (std::size_t k = 0; k < in.slots(); ++k) {
+    for (std::size_t k = 0; k < in.slot_count(); ++k) {
       auto const [lower, upper] = in.bounds[k];
       value const implied_upper = n - (least - value{lower});
       if (lower > upper || value{lower} > implied_upper) return refused(additive_end::slot_short, k);
-      graph_.set_bounds(k, {static_cast<std::uint32_t>(std::max(value{lower}, n - (most - value{upper}))),
-                            static_cast<std::uint32_t>(std::min(value{upper}, implied_upper))});
+      graph_.set_bounds(k, {static_cast<std::uint32_t>((std::max)(value{lower}, n - (most - value{upper}))),
+                            static_cast<std::uint32_t>((std::min)(value{upper}, implied_upper))});
     }
     return std::nullopt;
   }
@@ -139,9 +139,9 @@ private:
 
   additive_outcome finish(instance const& in, work_limit const& limit, bool warm) {
     auto flow = graph_.balance(limit);
-    bool const near = graph_.normalise();
+    bool const close = graph_.normalise();
     if (flow == slot_graph::flow::interrupted) return hurry(in);
-    if (!near) {  // prices have drifted apart in parts of the graph that hardly meet: once more, so that they cannot
+    if (!close) {  // prices have drifted apart in parts of the graph that hardly meet: once more, so that they cannot
       graph_.reset(in);
       if (auto const out = tighten(in)) return *out;
       for (row_index a = 0; a < in.agents; ++a)
@@ -167,7 +167,7 @@ private:
     if (!graph_.fill_anyhow(agents_)) return explain();
     std::uint64_t gap = 0;
     auto const add = [&](value amount, std::uint64_t times) {  // at most what 64 bits hold; amounts are not negative
-      auto const most = std::numeric_limits<std::uint64_t>::max();
+      auto const most = (std::numeric_limits<std::uint64_t>::max)();
       auto const x = static_cast<std::uint64_t>(amount);
       gap = x != 0 && times > (most - gap) / x ? most : gap + x * times;
     };
@@ -175,18 +175,18 @@ private:
     for (std::size_t a = 0; a < in.agents; ++a) {
       auto const here = graph_.who().home(a);
       if (here == no_slot) continue;
-      auto const best = kernel::best(in.row(a), price.data(), in.slots());
+      auto const best = kernel::best(in.row(a), price.data(), in.slot_count());
       add(in.at(a, best) - price[best] - (in.at(a, here) - price[here]), 1);
     }
-    for (std::size_t k = 0; k < in.slots(); ++k)
+    for (std::size_t k = 0; k < in.slot_count(); ++k)
       price[k] > 0 ? add(price[k], bounds(k).upper - graph_.who().count(k))
                    : add(-price[k], graph_.who().count(k) - bounds(k).lower);
     additive_outcome out;
     out.end = additive_end::interrupted;
     out.utility = graph_.who().total();
     auto const headroom =
-        static_cast<std::uint64_t>(std::numeric_limits<value>::max() - std::max<value>(out.utility, 0));
-    out.bound = out.utility + static_cast<value>(std::min(gap, headroom));
+        static_cast<std::uint64_t>((std::numeric_limits<value>::max)() - std::max<value>(out.utility, 0));
+    out.bound = out.utility + static_cast<value>((std::min)(gap, headroom));
     return counted(out);
   }
 
@@ -198,7 +198,7 @@ private:
       return refused(additive_end::slot_short, k);
     }
     auto least = graph_.who().first(stuck);
-    for (auto a = least; a != membership::nobody; a = graph_.who().next(a)) least = std::min(least, a);
+    for (auto a = least; a != membership::nobody; a = graph_.who().next(a)) least = (std::min)(least, a);
     return refused(additive_end::agent_stuck, least);
   }
 

@@ -36,7 +36,7 @@ struct pairwise_instance {
   std::span<coupling const> couplings;
   std::span<slot_bounds const> bounds;
 
-  [[nodiscard]] std::size_t slots() const noexcept { return bounds.size(); }
+  [[nodiscard]] std::size_t slot_count() const noexcept { return bounds.size(); }
 };
 
 /// What became of the m^(n−d) assignments below each prefix of d agents that a search looked at, by d.

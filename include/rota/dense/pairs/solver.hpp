@@ -45,17 +45,18 @@ public:
   /// @return found = false and complete = true iff no assignment is valid
   /// @pre the preconditions of `pairwise_instance`
   template <class Stop = never_stop, class Observer = no_observer>
-  pairwise_outcome solve(pairwise_instance const& in, std::uint64_t budget = std::numeric_limits<std::uint64_t>::max(),
-                         Stop stop = {}, Observer observer = {}) {
-    ROTA_ASSERT(in.agents <= max_pairwise_agents && in.slots() <= max_pairwise_slots);
+  pairwise_outcome solve(pairwise_instance const& in,
+                         std::uint64_t budget = (std::numeric_limits<std::uint64_t>::max)(), Stop stop = {},
+                         Observer observer = {}) {
+    ROTA_ASSERT(in.agents <= max_pairwise_agents && in.slot_count() <= max_pairwise_slots);
     pairwise_outcome out;
     std::size_t const n = in.agents;
     best_ = {false, detail::pairwise_model::nothing, std::move(best_.assignment)};
     best_.assignment.assign(n, no_slot);
     tallies_.assign(n + 1, {});
-    if (n == 0 || in.slots() == 0) return nothing_to_choose(in);
-    if (detail::plain_search::suits(n, in.slots())) {
-      auto const plainly = std::min(effort.plain_nodes, budget / 2);
+    if (n == 0 || in.slot_count() == 0) return nothing_to_choose(in);
+    if (detail::plain_search::suits(n, in.slot_count())) {
+      auto const plainly = (std::min)(effort.plain_nodes, budget / 2);
       no_observer nobody;
       auto const found = small_.solve(in, plainly, best_.assignment, out.value, tallies_, nobody);
       out.nodes = small_.nodes();
@@ -81,7 +82,7 @@ public:
     bound_suffixes(budget, stop);
     search_.prepare(model_, suffix_, prices_, lower_, upper_);
     std::uint64_t const spent = suffix_.work();
-    std::uint64_t const left = budget - std::min(budget, spent);
+    std::uint64_t const left = budget - (std::min)(budget, spent);
     bool const proved = search_.run(best_, left, stop, observer);
     tallies_.assign(search_.account().begin(), search_.account().end());
     std::uint64_t const nodes = search_.nodes();
@@ -96,7 +97,7 @@ public:
       return out;
     }
     out.value = out.found ? best_.value : 0;
-    out.bound = std::max(best_.value, search_.open_bound());
+    out.bound = (std::max)(best_.value, search_.open_bound());
     if (!out.found) best_.assignment.assign(n, no_slot);
     return out;
   }
@@ -130,9 +131,9 @@ private:
   template <class Stop>
   bool start(pairwise_instance const& in, std::uint64_t budget, Stop& stop) {
     std::size_t const n = in.agents;
-    lower_.resize(in.slots());
-    upper_.resize(in.slots());
-    for (std::size_t s = 0; s < in.slots(); ++s) {
+    lower_.resize(in.slot_count());
+    upper_.resize(in.slot_count());
+    for (std::size_t s = 0; s < in.slot_count(); ++s) {
       lower_[s] = in.bounds[s].lower;
       upper_[s] = static_cast<std::uint32_t>(std::min<std::size_t>(in.bounds[s].upper, n));
     }

@@ -14,7 +14,7 @@
 namespace rota::dense {
 
 /// A bound that bounds nothing.
-inline constexpr std::int64_t no_bound = std::numeric_limits<std::int64_t>::max();
+inline constexpr std::int64_t no_bound = (std::numeric_limits<std::int64_t>::max)();
 
 /// What a tree search asks about assignments.
 class tree_oracle {
@@ -105,7 +105,7 @@ public:
     } else {
       descend(in, oracle, options, out);
     }
-    if (out.complete) out.bound = out.found ? out.value : std::numeric_limits<std::int64_t>::min();
+    if (out.complete) out.bound = out.found ? out.value : (std::numeric_limits<std::int64_t>::min)();
     return out;
   }
 
@@ -116,8 +116,8 @@ public:
 
 private:
   void prepare(instance const& in) {
-    ROTA_ASSERT(in.utility.size() == in.agents * in.slots());
-    slots_ = in.slots();
+    ROTA_ASSERT(in.utility.size() == in.agents * in.slot_count());
+    slots_ = in.slot_count();
     assignment_.assign(in.agents, no_slot);
     best_.assign(in.agents, no_slot);
     refuter_.assign(in.agents, no_slot);
@@ -164,7 +164,7 @@ private:
       } else if (oracle.hopeless(prefix)) {
         leave(out.account.hopeless, depth + 1, out);
       } else {
-        bound_[depth + 1] = std::min(bound_[depth], oracle.bound(prefix, sum));
+        bound_[depth + 1] = (std::min)(bound_[depth], oracle.bound(prefix, sum));
         if (out.found && (known_ ? bound_[depth + 1] < out.value : bound_[depth + 1] <= out.value)) {
           leave(out.account.bounded, depth + 1, out);
           if (known_ && std::equal(prefix.begin(), prefix.end(), best_.begin()))
@@ -210,9 +210,9 @@ private:
   }
   /// What may still lie in the subtrees that were not entered.
   [[nodiscard]] std::int64_t frontier(std::size_t depth, tree_outcome const& out) const {
-    std::int64_t most = out.found ? out.value : std::numeric_limits<std::int64_t>::min();
+    std::int64_t most = out.found ? out.value : (std::numeric_limits<std::int64_t>::min)();
     for (std::size_t d = 0; d <= depth; ++d)
-      if (next_[d] < slots_) most = std::max(most, bound_[d]);
+      if (next_[d] < slots_) most = (std::max)(most, bound_[d]);
     return most;
   }
 

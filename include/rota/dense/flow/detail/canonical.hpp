@@ -41,12 +41,12 @@ public:
 
 private:
   [[nodiscard]] bool unique(slot_graph& graph) {
-    auto const slots = graph.slots();
+    auto const slot_count = graph.slot_count();
     heads_.clear();
-    begin_.assign(slots + 1, 0);
-    degree_.assign(slots + 1, 0);
+    begin_.assign(slot_count + 1, 0);
+    degree_.assign(slot_count + 1, 0);
     bool somebody = false;
-    for (std::size_t j = 0; j < slots; ++j) {
+    for (std::size_t j = 0; j < slot_count; ++j) {
       auto const add = [&](std::size_t k) {
         heads_.push_back(static_cast<slot>(k));
         ++degree_[k];
@@ -60,7 +60,7 @@ private:
     if (!somebody) return true;  // places alone make no other optimum
     // Strip what nothing leads to; what remains lies on cycles or behind them.
     queue_.clear();
-    for (std::size_t v = 0; v <= slots; ++v)
+    for (std::size_t v = 0; v <= slot_count; ++v)
       if (degree_[v] == 0) queue_.push_back(static_cast<slot>(v));
     for (std::size_t i = 0; i < queue_.size(); ++i) {
       auto const v = queue_[i];
@@ -68,13 +68,13 @@ private:
         if (--degree_[k] == 0) queue_.push_back(static_cast<slot>(k));
       };
       if (v == graph.sink()) {
-        for (std::size_t k = 0; k < slots; ++k)
+        for (std::size_t k = 0; k < slot_count; ++k)
           if (may_get(graph, k)) strip(k);
       } else {
         for (auto arc = begin_[v]; arc < begin_[v + 1]; ++arc) strip(heads_[arc]);
       }
     }
-    return queue_.size() == slots + 1;
+    return queue_.size() == slot_count + 1;
   }
   [[nodiscard]] bool on_no_cycle(std::size_t v) const { return degree_[v] == 0; }
 
@@ -95,7 +95,7 @@ private:
   void count(slot_graph const& graph, row_index a, int change) {
     std::size_t const j = graph.who().home(a);
     if (on_no_cycle(j)) return;
-    for (std::size_t k = 0; k < graph.slots(); ++k) {
+    for (std::size_t k = 0; k < graph.slot_count(); ++k) {
       if (!tight(graph, a, k)) continue;
       auto& movers = movers_[j * nodes_ + k];
       movers += static_cast<std::uint32_t>(change);
@@ -147,7 +147,7 @@ private:
     for (std::size_t i = 0; i < queue_.size(); ++i) {
       std::size_t const to = queue_[i];
       if (to == graph.sink()) {
-        for (std::size_t v = 0; v < graph.slots(); ++v)
+        for (std::size_t v = 0; v < graph.slot_count(); ++v)
           if (may_give(graph, v)) visit(v, to);
         continue;
       }

@@ -145,7 +145,7 @@ ROTA_WIDE std::size_t best(std::int64_t const* worth, std::int64_t const* price,
     value = less ? x : value;
     at = less ? index : at;
   }
-  row_entry e{std::numeric_limits<std::int64_t>::max(), 0};
+  row_entry e{(std::numeric_limits<std::int64_t>::max)(), 0};
   reduce(value, at, e);
   for (; k < n; ++k)
     if (price[k] - worth[k] < e.value) e = {price[k] - worth[k], k};
@@ -166,14 +166,14 @@ ROTA_WIDE row_leaders best_two(std::int64_t const* worth, std::int64_t const* pr
     auto const closer = loser < second;
     second = closer ? loser : second;
   }
-  row_entry e{std::numeric_limits<std::int64_t>::max(), 0};
+  row_entry e{(std::numeric_limits<std::int64_t>::max)(), 0};
   reduce(value, at, e);
   lanes others = at == all(static_cast<std::int64_t>(e.at)) ? all(-row_leaders::nothing) : value;
   others = second < others ? second : others;
-  std::int64_t other = std::min(std::min(others[0], others[1]), std::min(others[2], others[3]));
+  std::int64_t other = (std::min)((std::min)(others[0], others[1]), (std::min)(others[2], others[3]));
   for (; k < n; ++k) {
     std::int64_t const x = price[k] - worth[k];
-    other = std::min(other, std::max(x, e.value));
+    other = (std::min)(other, (std::max)(x, e.value));
     if (x < e.value) e = {x, k};
   }
   return {-e.value, -other, e.at};

@@ -26,7 +26,7 @@ public:
 
   /// Empty ledgers for the slots of `in` that keep one.
   void reset(instance const& in) {
-    slots_ = in.slots();
+    slots_ = in.slot_count();
     row_of_.assign(slots_, no_slot);
     slot rows = 0;
     for (std::size_t k = 0; k < slots_; ++k)
@@ -94,7 +94,7 @@ public:
       best_of = more ? a : best_of;
     }
     if (a != membership::nobody) {
-      value const unseen = std::min(gain, rest_price_[k] - rest_price_[j] - rest_margin_);
+      value const unseen = (std::min)(gain, rest_price_[k] - rest_price_[j] - rest_margin_);
       if (best < unseen) best = unseen, best_of = membership::nobody;
     }
     gain = best;

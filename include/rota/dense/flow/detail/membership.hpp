@@ -17,15 +17,15 @@ public:
   static constexpr row_index nobody = ~row_index{0};
 
   /// Nobody is anywhere.
-  void reset(std::size_t agents, std::size_t slots) {
+  void reset(std::size_t agents, std::size_t slot_count) {
     home_.assign(agents, no_slot);
     worth_.resize(agents);
     next_.resize(agents);
     previous_.resize(agents);
     resting_.resize(agents);
-    head_.assign(slots, nobody);
-    tail_.assign(slots, nobody);
-    count_.assign(slots, 0);
+    head_.assign(slot_count, nobody);
+    tail_.assign(slot_count, nobody);
+    count_.assign(slot_count, 0);
     total_ = 0;
   }
 

@@ -24,7 +24,7 @@ public:
   /// Places everybody who takes part; false if somebody has no pair at all. @pre `graph` holds nobody
   [[nodiscard]] bool play(slot_graph& graph, std::size_t agents, work_limit const& limit) {
     homeless_ = membership::nobody;
-    if (agents > crowd * graph.slots() || !auction(graph, agents)) sample(graph, agents, limit);
+    if (agents > crowd * graph.slot_count() || !auction(graph, agents)) sample(graph, agents, limit);
     graph.open_places(agents);
     return homeless_ == membership::nobody;
   }
@@ -37,10 +37,10 @@ private:
   static constexpr std::size_t few = 8;     // agents a slot below which a sample says nothing
   static constexpr std::size_t crowd = 32;  // agents a slot from which on a sample says more than an auction
   static constexpr unsigned quarter = 2;    // as a shift
-  static constexpr value captive = std::numeric_limits<value>::max();  // the bid of who has no second slot
+  static constexpr value captive = (std::numeric_limits<value>::max)();  // the bid of who has no second slot
 
   void place(slot_graph& graph, row_index a) {
-    if (!graph.place(a)) homeless_ = std::min(homeless_, a);
+    if (!graph.place(a)) homeless_ = (std::min)(homeless_, a);
   }
 
   // Auction -----------------------------------------------------------------------------------------------------------
@@ -56,7 +56,7 @@ private:
     for (row_index a = 0; a < in.agents; ++a)
       if (in.takes_part(a) && graph.who().home(a) == no_slot)
         for (auto next = a; next != membership::nobody;) next = bid(graph, next);
-    if (agents >= few * graph.slots() && 5 * waiting_.size() > 2 * agents) {
+    if (agents >= few * graph.slot_count() && 5 * waiting_.size() > 2 * agents) {
       graph.clear();
       return false;
     }
@@ -69,7 +69,7 @@ private:
   /// Agent a goes to its best slot, or waits, or pushes somebody out, or meets a higher price. @return who bids next
   row_index bid(slot_graph& graph, row_index a) {
     auto const price = graph.prices();
-    auto const [best, second, j] = kernel::best_two(graph.problem().row(a), price.data(), graph.slots());
+    auto const [best, second, j] = kernel::best_two(graph.problem().row(a), price.data(), graph.slot_count());
     if (!graph.problem().present(a, j)) return wait(a);
     bid_[a] = second < absent / 2 ? captive : price[j] + (best - second);
     if (graph.who().count(j) < graph.bounds(j).upper) {
@@ -83,7 +83,7 @@ private:
     if (bid_[a] > stays) {
       graph.take(rival);
       graph.put(a, static_cast<slot>(j));
-      auto const least = std::min(next, bid_[a]);
+      auto const least = (std::min)(next, bid_[a]);
       price[j] = least == captive ? stays : least;
       return rival;
     }
@@ -101,12 +101,12 @@ private:
     value next;  // the least bid of the others
   };
   [[nodiscard]] least_bid least_bids(slot_graph const& graph, std::size_t j) const {
-    least_bid found{graph.who().first(j), std::numeric_limits<value>::max()};
+    least_bid found{graph.who().first(j), (std::numeric_limits<value>::max)()};
     for (auto a = graph.who().next(found.agent); a != membership::nobody; a = graph.who().next(a)) {
       if (bid_[a] < bid_[found.agent]) {
         found = {a, bid_[found.agent]};
       } else {
-        found.next = std::min(found.next, bid_[a]);
+        found.next = (std::min)(found.next, bid_[a]);
       }
     }
     return found;
@@ -114,20 +114,20 @@ private:
 
   /// Whether every slot takes one agent, and all are needed.
   [[nodiscard]] static bool one_each(slot_graph const& graph, std::size_t agents) {
-    if (agents != graph.slots()) return false;
-    for (std::size_t k = 0; k < graph.slots(); ++k)
+    if (agents != graph.slot_count()) return false;
+    for (std::size_t k = 0; k < graph.slot_count(); ++k)
       if (!(graph.bounds(k) == slot_bounds{1, 1})) return false;
     return true;
   }
   /// Each slot costs what it is worth most to anybody, who gets it unless it has got another.
   void choose_for_slots(slot_graph& graph) {
     instance const& in = graph.problem();
-    auto const price = graph.prices().first(graph.slots());
+    auto const price = graph.prices().first(graph.slot_count());
     std::fill(price.begin(), price.end(), absent);
-    fan_.assign(graph.slots(), 0);
+    fan_.assign(graph.slot_count(), 0);
     for (row_index a = 0; a < in.agents; ++a)
-      if (in.takes_part(a)) kernel::raise(in.row(a), 0, a, price.data(), fan_.data(), graph.slots());
-    for (auto k = graph.slots(); k-- > 0;) {
+      if (in.takes_part(a)) kernel::raise(in.row(a), 0, a, price.data(), fan_.data(), graph.slot_count());
+    for (auto k = graph.slot_count(); k-- > 0;) {
       auto const a = static_cast<row_index>(fan_[k]);
       if (price[k] == absent) {
         price[k] = 0;
@@ -142,13 +142,13 @@ private:
 
   void sample(slot_graph& graph, std::size_t agents, work_limit const& limit) {
     bounds_.clear();
-    for (std::size_t k = 0; k < graph.slots(); ++k) bounds_.push_back(graph.bounds(k));
+    for (std::size_t k = 0; k < graph.slot_count(); ++k) bounds_.push_back(graph.bounds(k));
     unsigned shift = 0;
-    while (agents >> shift >= 4 * graph.slots()) shift += quarter;
+    while (agents >> shift >= 4 * graph.slot_count()) shift += quarter;
     smallest_ = shift;
     for (; shift > 0; shift -= quarter) {
       auto const some = place_some(graph, shift);
-      for (std::size_t k = 0; k < graph.slots(); ++k) graph.set_bounds(k, scaled(bounds_[k], some, agents));
+      for (std::size_t k = 0; k < graph.slot_count(); ++k) graph.set_bounds(k, scaled(bounds_[k], some, agents));
       graph.open_places(some);
       bool const interrupted = graph.balance(limit) == slot_graph::flow::interrupted;
       if (!graph.normalise()) std::fill(graph.prices().begin(), graph.prices().end(), 0);
@@ -156,12 +156,12 @@ private:
       graph.clear();
     }
     graph.clear();
-    for (std::size_t k = 0; k < graph.slots(); ++k) graph.set_bounds(k, bounds_[k]);
+    for (std::size_t k = 0; k < graph.slot_count(); ++k) graph.set_bounds(k, bounds_[k]);
     place_some(graph, 0);
   }
   static constexpr slot_bounds scaled(slot_bounds b, std::uint64_t some, std::uint64_t all) noexcept {
-    auto const upper = std::min(some, (b.upper * some + all - 1) / all);
-    return {static_cast<std::uint32_t>(std::min(b.lower * some / all, upper)), static_cast<std::uint32_t>(upper)};
+    auto const upper = (std::min)(some, (b.upper * some + all - 1) / all);
+    return {static_cast<std::uint32_t>((std::min)(b.lower * some / all, upper)), static_cast<std::uint32_t>(upper)};
   }
 
   /// One agent of 2^shift goes where it is worth most, most of them to rest there. @return how many they are
@@ -174,9 +174,9 @@ private:
     std::size_t some = 0;
     for (row_index a = 0; a < in.agents; ++a) {
       if (!in.takes_part(a) || !chosen(a, shift)) continue;
-      auto const [best, second, j] = kernel::best_two(in.row(a), price.data(), graph.slots());
+      auto const [best, second, j] = kernel::best_two(in.row(a), price.data(), graph.slot_count());
       if (!in.present(a, j)) {
-        if (shift == 0) homeless_ = std::min(homeless_, a);
+        if (shift == 0) homeless_ = (std::min)(homeless_, a);
         continue;
       }
       ++some;
@@ -191,13 +191,13 @@ private:
     margins_.clear();
     for (row_index a = 0; a < in.agents; ++a) {
       if (!in.takes_part(a) || !chosen(a, smallest_)) continue;
-      auto const [best, second, j] = kernel::best_two(in.row(a), graph.prices().data(), graph.slots());
+      auto const [best, second, j] = kernel::best_two(in.row(a), graph.prices().data(), graph.slot_count());
       margins_.push_back(best - second);
     }
     if (margins_.empty()) return 0;
     auto const at = margins_.begin() + static_cast<std::ptrdiff_t>(margins_.size() / 4);
     std::nth_element(margins_.begin(), at, margins_.end());
-    return std::min(*at, max_reach);  // who has one slot only prefers it beyond any number
+    return (std::min)(*at, max_reach);  // who has one slot only prefers it beyond any number
   }
   [[nodiscard]] static constexpr bool chosen(row_index a, unsigned shift) noexcept {
     return mixed(a) <= ~std::uint32_t{0} >> shift;

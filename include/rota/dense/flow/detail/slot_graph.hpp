@@ -42,7 +42,7 @@ public:
   /// Nobody is placed, all prices are 0.
   void reset(instance const& in) {
     in_ = in;
-    auto const s = in.slots();
+    auto const s = in.slot_count();
     price_.assign(s + 1, 0);
     places_.assign(s, 0);
     label_.resize(s + 1);
@@ -60,7 +60,7 @@ public:
 
   /// The same agents and slots, with some other numbers; false if the slots now ask for other ledgers: then `reset`.
   [[nodiscard]] bool adopt(instance const& in) {
-    if (in.agents != who_.homes().size() || in.slots() != slots() || !ledgers_.suit(in)) return false;
+    if (in.agents != who_.homes().size() || in.slot_count() != slot_count() || !ledgers_.suit(in)) return false;
     in_ = in;
     done_ = {};
     return true;
@@ -68,12 +68,12 @@ public:
 
   /// Takes everybody out. Prices stay.
   void clear() {
-    who_.reset(in_.agents, slots());
+    who_.reset(in_.agents, slot_count());
     ledgers_.close();
   }
 
   [[nodiscard]] instance const& problem() const noexcept { return in_; }
-  [[nodiscard]] std::size_t slots() const noexcept { return bounds_.size(); }
+  [[nodiscard]] std::size_t slot_count() const noexcept { return bounds_.size(); }
   [[nodiscard]] std::size_t sink() const noexcept { return bounds_.size(); }
   [[nodiscard]] membership const& who() const noexcept { return who_; }
   [[nodiscard]] slot_bounds bounds(std::size_t k) const noexcept { return bounds_[k]; }
@@ -103,7 +103,7 @@ public:
   void take(row_index a) { who_.take(a); }
   /// Puts agent a where it is worth most at these prices; false if every pair of it is absent. O(s).
   bool place(row_index a) {
-    auto const j = static_cast<slot>(kernel::best(in_.row(a), price_.data(), slots()));
+    auto const j = static_cast<slot>(kernel::best(in_.row(a), price_.data(), slot_count()));
     if (!in_.present(a, j)) return false;
     put(a, j);
     return true;
@@ -112,7 +112,7 @@ public:
   /// As many places as prices ask for, where `agents` are placed: the start of balancing. O(s).
   void open_places(std::size_t agents) {
     surplus_ = -static_cast<value>(agents);
-    for (std::size_t k = 0; k < slots(); ++k) {
+    for (std::size_t k = 0; k < slot_count(); ++k) {
       auto const [least, most] = bounds_[k];
       places_[k] = price_[k] > price_[sink()]   ? most
                    : price_[k] < price_[sink()] ? least
@@ -135,7 +135,7 @@ public:
     value furthest = 0;
     for (auto& p : price_) {
       p -= zero;
-      furthest = std::max(furthest, p < 0 ? -p : p);
+      furthest = (std::max)(furthest, p < 0 ? -p : p);
     }
     return furthest <= 4 * max_reach;
   }
@@ -157,7 +157,7 @@ public:
   template <class F>
   void for_each_tight(std::size_t j, F&& f) {
     auto const visit = [&](value const* gain, value here, auto&& really) {
-      for (std::size_t k = 0; (k = kernel::first_tight(gain, here, price_.data(), k, slots())) < slots(); ++k)
+      for (std::size_t k = 0; (k = kernel::first_tight(gain, here, price_.data(), k, slot_count())) < slot_count(); ++k)
         if (k != j && really(k)) f(k);
     };
     if (ledgers_.has(j)) {
@@ -179,7 +179,7 @@ public:
   /// invariants of prices do not hold. For those who cannot wait for `balance`.
   bool fill_anyhow(std::size_t agents) {
     surplus_ = -static_cast<value>(agents);
-    for (std::size_t k = 0; k < slots(); ++k) {
+    for (std::size_t k = 0; k < slot_count(); ++k) {
       places_[k] = std::clamp(who_.count(k), bounds_[k].lower, bounds_[k].upper);
       surplus_ += places_[k];
     }
@@ -232,7 +232,7 @@ private:
       auto const [d, v] = nearest;
       if (!trustworthy(v)) {
         correct(v, passed);
-        nearest = kernel::least(label_.data(), slots() + 1, unreached);
+        nearest = kernel::least(label_.data(), slot_count() + 1, unreached);
         continue;
       }
       reach = d;
@@ -256,23 +256,23 @@ private:
     label_[v] = unreached;
     value const base = d - price_[v];
     open_price_[v] = closed;
-    done_.relaxations += slots();
+    done_.relaxations += slot_count();
     if (v == sink()) {
-      for (std::size_t k = 0; k < slots(); ++k)
+      for (std::size_t k = 0; k < slot_count(); ++k)
         if (may_close(k)) offer(k, base + open_price_[k], link(nobody, v));
-      return kernel::least(label_.data(), slots() + 1, unreached);
+      return kernel::least(label_.data(), slot_count() + 1, unreached);
     }
     if (may_open(v)) offer(sink(), base + open_price_[sink()], link(nobody, v));
-    row_entry nearest{unreached, slots()};
+    row_entry nearest{unreached, slot_count()};
     if (ledgers_.has(v)) {
       nearest = kernel::relax(base, open_price_.data(), ledgers_.gains(v), link(nobody, v), label_.data(), via_.data(),
-                              slots(), unreached);
+                              slot_count(), unreached);
     } else if (who_.first(v) == nobody) {
-      nearest = kernel::least(label_.data(), slots(), unreached);
+      nearest = kernel::least(label_.data(), slot_count(), unreached);
     } else {
       for (auto a = who_.first(v); a != nobody; a = who_.next(a))
         nearest = kernel::relax(base + who_.worth(a), open_price_.data(), in_.row(a), link(a, v), label_.data(),
-                                via_.data(), slots(), unreached);
+                                via_.data(), slot_count(), unreached);
     }
     if (label_[sink()] < nearest.value) nearest = {label_[sink()], sink()};
     return nearest;
@@ -351,13 +351,13 @@ private:
         settled_[end++] = static_cast<slot>(k);
       };
       if (v == sink()) {
-        for (std::size_t k = 0; k < slots(); ++k)
+        for (std::size_t k = 0; k < slot_count(); ++k)
           if (may_close(k)) reach(k, link(nobody, v));
         continue;
       }
       if (may_open(v)) reach(sink(), link(nobody, v));
-      for (auto a = who_.first(v); a != nobody && end <= slots(); a = who_.next(a))
-        for (std::size_t k = 0; k < slots(); ++k)
+      for (auto a = who_.first(v); a != nobody && end <= slot_count(); a = who_.next(a))
+        for (std::size_t k = 0; k < slot_count(); ++k)
           if (in_.present(a, k)) reach(k, link(a, v));
     }
     return false;

@@ -39,7 +39,7 @@ public:
     lower_ = lower;
     upper_ = upper;
     agents_ = model.agents();
-    slots_ = model.slots();
+    slots_ = model.slot_count();
     row_ = slots_ * model.stride();
     kernel_ = choose_lane_kernel(model.stride(), model.floored());
     frames_.resize(agents_ + 1);
@@ -49,7 +49,7 @@ public:
     zeros_.assign(row_, 0);
     at_.assign(agents_, no_slot);
     partial_.resize(agents_);
-    price_stride_ = std::max(slots_, price_table::most_slots);
+    price_stride_ = (std::max)(slots_, price_table::most_slots);
     child_prices_.resize(slots_ * price_stride_);
     job_.resize(slots_);
     sums_.resize(slots_);
@@ -115,7 +115,7 @@ private:
   static constexpr std::int32_t first_credit = 200;  // improvements of prices tried at a depth, without success
   static constexpr std::uint32_t try_every = 64;     // and besides, one of so many
   static constexpr std::size_t few = 4;              // agents left: too few for prices to be improved
-  static constexpr std::int32_t cut_off = std::numeric_limits<std::int32_t>::min();
+  static constexpr std::int32_t cut_off = (std::numeric_limits<std::int32_t>::min)();
 
   struct child {
     std::int32_t allowed = 0;  // at most, by the bounds
@@ -134,9 +134,9 @@ private:
     std::uint32_t missing = 0;  // agents that lower bounds still ask for
   };
 
-  static std::uint64_t number_of(std::uint64_t slots) {
+  static std::uint64_t number_of(std::uint64_t slot_set) {
     std::uint64_t count = 0;
-    for (; slots != 0; slots &= slots - 1) ++count;
+    for (; slot_set != 0; slot_set &= slot_set - 1) ++count;
     return count;
   }
   [[nodiscard]] std::uint64_t all_slots() const {
@@ -182,7 +182,7 @@ private:
     std::size_t const last = agents_ - 1;
     bool const counted = suffix_->counted(agents_);
     std::uint64_t poll = nodes_ + poll_every;
-    std::uint64_t pause = std::min(poll, budget);
+    std::uint64_t pause = (std::min)(poll, budget);
     start();
     std::size_t d = 0;
     grow(0, {}, observer);
@@ -196,7 +196,7 @@ private:
       if (nodes_ >= pause) {
         if (nodes_ >= budget || stop()) return leave(d);
         poll = nodes_ + poll_every;
-        pause = std::min(poll, budget);
+        pause = (std::min)(poll, budget);
       }
       child const c = *f.next++;
       if (c.allowed <= enough_) {
@@ -230,7 +230,7 @@ private:
       frame const& f = frames_[i];
       if (f.next == f.last) continue;
       tallies_[i + 1].open += static_cast<std::uint64_t>(f.last - f.next);
-      bound_ = std::max(bound_, model_->exact(f.next->allowed));  // the first allows most
+      bound_ = (std::max)(bound_, model_->exact(f.next->allowed));  // the first allows most
     }
     return end::stopped;
   }
@@ -268,20 +268,20 @@ private:
     pairwise_tally& tally = tallies_[e];
     lane_node const node = node_at(d);
     lane const* const field = node.fields + model.lane_of(d);
-    std::int32_t others = std::numeric_limits<std::int32_t>::max() / 2;
+    std::int32_t others = (std::numeric_limits<std::int32_t>::max)() / 2;
     if (suffix_->counted(d)) {
       others = others_allow(d, f, self, observer);
       if (others == cut_off) return;
     } else {
       most_by_.fill(0);
     }
-    std::uint64_t const slots = candidates(d, f, observer);
+    std::uint64_t const slot_set = candidates(d, f, observer);
     // By what the node itself allows. Without branches, for nobody could predict them.
     std::int32_t const* const shares = model.shares(d);
     std::size_t tried = 0;
     std::size_t count = 0;
     bool par = false;
-    for (std::uint64_t s = slots; s != 0; s &= s - 1) {
+    for (std::uint64_t s = slot_set; s != 0; s &= s - 1) {
       auto const x = static_cast<std::size_t>(std::countr_zero(s));
       std::int32_t const own = field[x * node.stride];
       std::int32_t const allowed = others + own + most_by_[x];
@@ -321,24 +321,24 @@ private:
   template <class Observer>
   std::uint64_t candidates(std::size_t d, frame const& f, Observer& observer) {
     pairwise_tally& tally = tallies_[d + 1];
-    std::uint64_t slots = f.missing >= agents_ - d ? f.open & f.wanting : f.open;
+    std::uint64_t slot_set = f.missing >= agents_ - d ? f.open & f.wanting : f.open;
     std::uint64_t const all = all_slots();
-    if (slots != all) {
-      tally.by_cardinality += number_of(all & ~slots);
-      cut_all(observer, d, all & ~slots, pairwise_cut::cardinality);
+    if (slot_set != all) {
+      tally.by_cardinality += number_of(all & ~slot_set);
+      cut_all(observer, d, all & ~slot_set, pairwise_cut::cardinality);
     }
-    if (std::uint64_t const out = slots & ~present_[d]; out != 0) {
+    if (std::uint64_t const out = slot_set & ~present_[d]; out != 0) {
       tally.by_absence += number_of(out);
       cut_all(observer, d, out, pairwise_cut::absence);
-      slots &= present_[d];
+      slot_set &= present_[d];
     }
     if (std::uint32_t const twin = model_->twin_before(d); twin != no_slot) {
-      std::uint64_t const earlier = slots & ((std::uint64_t{1} << at_[twin]) - 1);
+      std::uint64_t const earlier = slot_set & ((std::uint64_t{1} << at_[twin]) - 1);
       tally.by_symmetry += number_of(earlier);
       cut_all(observer, d, earlier, pairwise_cut::symmetry);
-      slots &= ~earlier;
+      slot_set &= ~earlier;
     }
-    return slots;
+    return slot_set;
   }
 
   /// What the node has and the agents after the next one allow, at the prices of its state; sets most_by_. Or `cut_off`.
@@ -349,7 +349,7 @@ private:
     std::int32_t all = self.rest;
     if (s.version != self.version) [[unlikely]] {
       // Other prices by now: they may even cut the node.
-      lane_node const whole{node.fields, node.slots, node.stride, node.first - 1, node.floor};
+      lane_node const whole{node.fields, node.slot_count, node.stride, node.first - 1, node.floor};
       lane_child const itself{zeros_.data(), s.prices.data()};
       kernel_(whole, &itself, 1, &all);
       ++nodes_;
@@ -364,8 +364,8 @@ private:
     if (!s.by_slot) prices_->split(s);
     std::copy(s.most_by.begin(), s.most_by.end(), most_by_.begin());
     lane const* const field = node.fields + node.first - 1;
-    std::int32_t own = std::numeric_limits<std::int32_t>::min();
-    for (std::size_t y = 0; y < slots_; ++y) own = std::max(own, field[y * node.stride] - s.prices[y]);
+    std::int32_t own = (std::numeric_limits<std::int32_t>::min)();
+    for (std::size_t y = 0; y < slots_; ++y) own = std::max<std::int32_t>(own, field[y * node.stride] - s.prices[y]);
     return f.value + all - own;
   }
 
@@ -431,10 +431,10 @@ private:
       observer(placed(d, x), pairwise_cut::bound, model_->exact(allowed));
   }
   template <class Observer>
-  void cut_all(Observer& observer, std::size_t d, std::uint64_t slots, pairwise_cut why) {
+  void cut_all(Observer& observer, std::size_t d, std::uint64_t slot_set, pairwise_cut why) {
     if constexpr (!std::is_same_v<Observer, no_observer>)
-      for (; slots != 0; slots &= slots - 1)
-        observer(placed(d, static_cast<slot>(std::countr_zero(slots))), why, pairwise_model::nothing);
+      for (; slot_set != 0; slot_set &= slot_set - 1)
+        observer(placed(d, static_cast<slot>(std::countr_zero(slot_set))), why, pairwise_model::nothing);
   }
   std::span<slot const> placed(std::size_t d, slot x) {
     std::fill(partial_.begin(), partial_.end(), no_slot);

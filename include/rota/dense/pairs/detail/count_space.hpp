@@ -23,8 +23,8 @@ public:
   static constexpr std::size_t most_indices = 16384;
 
   /// Whether the counts of n agents fit into one word.
-  static bool fits(std::size_t slots, std::size_t agents) {
-    return slots * (static_cast<std::size_t>(std::bit_width(agents)) + 1) <= 64;
+  static bool fits(std::size_t slot_count, std::size_t agents) {
+    return slot_count * (static_cast<std::size_t>(std::bit_width(agents)) + 1) <= 64;
   }
 
   /// @pre fits(upper.size(), agents); most ≤ agents
@@ -110,7 +110,7 @@ private:
       return;
     }
     room -= upper[s];
-    for (std::size_t t = std::max<std::size_t>(lower[s], k - std::min(k, room)); t <= k && t <= upper[s]; ++t)
+    for (std::size_t t = std::max<std::size_t>(lower[s], k - (std::min)(k, room)); t <= k && t <= upper[s]; ++t)
       list(lower, upper, k - t, room, s + 1, c + unit(s) * t, out);
   }
 

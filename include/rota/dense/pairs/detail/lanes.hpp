@@ -32,7 +32,7 @@ constexpr std::size_t lane_stride(std::size_t n) { return n <= 8 ? 8 : (n + lane
 /// A search node as the kernels see it. Rows are slots of `stride` lanes; lanes before `first` hold nothing.
 struct lane_node {
   lane const* fields = nullptr;  ///< what each unplaced agent gets in each slot: its own, and from those placed
-  std::size_t slots = 0;
+  std::size_t slot_count = 0;
   std::size_t stride = 0;
   std::size_t first = 0;  ///< the first lane of an agent that stays unplaced
   lane floor = 0;         ///< lower sums are raised to it: only where combinations are forbidden
@@ -53,7 +53,7 @@ struct lane_columns {
   lane* to = nullptr;                    ///< [state][width]
   std::size_t apart = 0;                 ///< … and so much farther per slot
   std::size_t width = 0;                 ///< a multiple of 16
-  std::size_t slots = 0;                 ///< at most 32
+  std::size_t slot_count = 0;            ///< at most 32
   std::int32_t value = 0;                ///< to be added to all values, which are then divided by 2^coarse, rounded up,
   std::int32_t floor = 0;                ///< and raised to this
   unsigned coarse = 0;
@@ -66,7 +66,7 @@ struct lane_transport {
   lane* to = nullptr;                   ///< [state][width]
   std::uint32_t const* more = nullptr;  ///< [state][slot]: the state with one agent more in that slot, or ~0
   std::size_t states = 0;
-  std::size_t slots = 0;
+  std::size_t slot_count = 0;
   std::size_t width = 0;  ///< a multiple of 16
 };
 
@@ -89,7 +89,7 @@ ROTA_LANES_INLINE void maxima(lane_node const& node, lane_child const* child, st
   using vector = typename of<Width>::vector;
   using memory = typename of<Width>::memory;
   using wide = typename of<Width>::wide;
-  std::size_t const slots = Slots != 0 ? Slots : node.slots;
+  std::size_t const slot_count = Slots != 0 ? Slots : node.slot_count;
   std::size_t const begin = node.first / Width * Width;
   vector const mask = *reinterpret_cast<memory const*>(masks + lane_block - (node.first - begin));
   vector const floor = vector{} + node.floor;
@@ -98,10 +98,10 @@ ROTA_LANES_INLINE void maxima(lane_node const& node, lane_child const* child, st
     wide total{};
     vector keep = mask;
     for (std::size_t b = begin; b < node.stride; b += Width) {
-      vector best = vector{} + std::numeric_limits<lane>::min();
+      vector best = vector{} + (std::numeric_limits<lane>::min)();
       lane const* field = node.fields + b;
       lane const* table = child[c].table + b;
-      for (std::size_t y = 0; y < slots; ++y, field += node.stride, table += node.stride) {
+      for (std::size_t y = 0; y < slot_count; ++y, field += node.stride, table += node.stride) {
         vector v = *reinterpret_cast<memory const*>(field) + *reinterpret_cast<memory const*>(table);
         if constexpr (Floored) v = v > floor ? v : floor;
         v -= prices[y];
@@ -127,7 +127,7 @@ ROTA_LANES_INLINE void maxima(lane_node const& node, lane_child const* child, st
 template <std::size_t Width, bool Floored>
 ROTA_LANES_INLINE void maxima_by_slots(lane_node const& node, lane_child const* child, std::size_t count,
                                        std::int32_t* sums) {
-  switch (node.slots) {
+  switch (node.slot_count) {
   case 3: return maxima<Width, 3, Floored>(node, child, count, sums);
   case 4: return maxima<Width, 4, Floored>(node, child, count, sums);
   case 5: return maxima<Width, 5, Floored>(node, child, count, sums);
@@ -145,11 +145,11 @@ ROTA_LANES_INLINE void columns(lane_columns const& job) {
   lane const* add[32];
   lane value[32];
   std::size_t count = 0;
-  for (std::size_t x = 0; x < job.slots; ++x) {
+  for (std::size_t x = 0; x < job.slot_count; ++x) {
     if (job.more[x] == ~std::uint32_t{0}) continue;
     to[count] = job.to + x * job.apart + job.more[x] * job.width;
     add[count] = job.adds + x * 2 * job.width;
-    value[count++] = static_cast<lane>(std::max(-(-(job.value + job.values[x]) >> job.coarse), job.floor));
+    value[count++] = static_cast<lane>((std::max)(-(-(job.value + job.values[x]) >> job.coarse), job.floor));
   }
   for (std::size_t c = 0; c < job.width; c += Width) {
     vector const one = *reinterpret_cast<memory const*>(job.sums + c);
@@ -172,7 +172,7 @@ ROTA_LANES_INLINE void transport(lane_transport const& job) {
   using memory = typename of<Width>::memory;
   std::uint32_t const* more = job.more;
   for (std::size_t i = 0; i < job.states; ++i)
-    for (std::size_t x = 0; x < job.slots; ++x, ++more) {
+    for (std::size_t x = 0; x < job.slot_count; ++x, ++more) {
       if (*more == ~std::uint32_t{0}) continue;
       lane const* const from = job.from + i * job.width;
       lane const* const gain = job.gains + x * job.width;
@@ -193,15 +193,15 @@ inline std::int32_t demand(lane_node const& node, lane const* prices, std::int32
   std::size_t const begin = node.first / 8 * 8;
   vector keep = *reinterpret_cast<memory const*>(masks + lane_block - (node.first - begin));
   wide total{};
-  for (std::size_t y = 0; y < node.slots; ++y) wanted[y] = 0;
+  for (std::size_t y = 0; y < node.slot_count; ++y) wanted[y] = 0;
   for (std::size_t b = begin; b < node.stride; b += 8) {
-    vector best = vector{} + std::numeric_limits<lane>::min();
-    for (std::size_t y = 0; y < node.slots; ++y) {
+    vector best = vector{} + (std::numeric_limits<lane>::min)();
+    for (std::size_t y = 0; y < node.slot_count; ++y) {
       vector const v = *reinterpret_cast<memory const*>(node.fields + y * node.stride + b) - prices[y];
       best = best > v ? best : v;
     }
     vector open = keep;
-    for (std::size_t y = 0; y < node.slots; ++y) {
+    for (std::size_t y = 0; y < node.slot_count; ++y) {
       vector const v = *reinterpret_cast<memory const*>(node.fields + y * node.stride + b) - prices[y];
       vector const here = (v == best) & open;
       open &= ~here;
@@ -224,7 +224,7 @@ inline void place(lane_node const& node, lane const* table, lane* child) {
   lane const* field = node.fields;
   for (std::size_t b = node.first / 8 * 8; b < node.stride; b += 8) {
     std::size_t at = b;
-    for (std::size_t y = 0; y < node.slots; ++y, at += node.stride) {
+    for (std::size_t y = 0; y < node.slot_count; ++y, at += node.stride) {
       vector const v = *reinterpret_cast<memory const*>(field + at) + *reinterpret_cast<memory const*>(table + at);
       *reinterpret_cast<memory*>(child + at) = v > floor ? v : floor;
     }
@@ -252,14 +252,14 @@ template <bool Floored>
 #else
 
 inline void columns_portable(lane_columns const& job) {
-  for (std::size_t x = 0; x < job.slots; ++x) {
+  for (std::size_t x = 0; x < job.slot_count; ++x) {
     if (job.more[x] == ~std::uint32_t{0}) continue;
     lane* const to = job.to + x * job.apart + job.more[x] * job.width;
     lane const* const add = job.adds + x * 2 * job.width;
-    int const value = std::max(-(-(job.value + job.values[x]) >> job.coarse), job.floor);
+    int const value = (std::max)(-(-(job.value + job.values[x]) >> job.coarse), job.floor);
     for (std::size_t c = 0; c < job.width; ++c) {
-      int const most = std::max(job.sums[c] + add[c], job.sums[job.width + c] + add[job.width + c]) + value;
-      to[c] = std::max(to[c], static_cast<lane>(most));
+      int const most = (std::max)(job.sums[c] + add[c], job.sums[job.width + c] + add[job.width + c]) + value;
+      to[c] = (std::max)(to[c], static_cast<lane>(most));
     }
   }
 }
@@ -267,10 +267,10 @@ inline void columns_portable(lane_columns const& job) {
 inline void transport_portable(lane_transport const& job) {
   std::uint32_t const* more = job.more;
   for (std::size_t i = 0; i < job.states; ++i)
-    for (std::size_t x = 0; x < job.slots; ++x, ++more)
+    for (std::size_t x = 0; x < job.slot_count; ++x, ++more)
       for (std::size_t l = 0; l < job.width && *more != ~std::uint32_t{0}; ++l) {
         lane& here = job.to[*more * job.width + l];
-        here = std::max(here, static_cast<lane>(job.from[i * job.width + l] + job.gains[x * job.width + l]));
+        here = (std::max)(here, static_cast<lane>(job.from[i * job.width + l] + job.gains[x * job.width + l]));
       }
 }
 
@@ -279,11 +279,11 @@ void maxima_portable(lane_node const& node, lane_child const* child, std::size_t
   for (std::size_t c = 0; c < count; ++c) {
     sums[c] = 0;
     for (std::size_t l = node.first; l < node.stride; ++l) {
-      int best = std::numeric_limits<lane>::min();
-      for (std::size_t y = 0; y < node.slots; ++y) {
+      int best = (std::numeric_limits<lane>::min)();
+      for (std::size_t y = 0; y < node.slot_count; ++y) {
         int v = node.fields[y * node.stride + l] + child[c].table[y * node.stride + l];
         if constexpr (Floored) v = std::max<int>(v, node.floor);
-        best = std::max(best, v - child[c].prices[y]);
+        best = (std::max)(best, v - child[c].prices[y]);
       }
       sums[c] += best;
     }
@@ -291,18 +291,18 @@ void maxima_portable(lane_node const& node, lane_child const* child, std::size_t
 }
 
 inline void place(lane_node const& node, lane const* table, lane* child) {
-  for (std::size_t y = 0; y < node.slots; ++y)
+  for (std::size_t y = 0; y < node.slot_count; ++y)
     for (std::size_t l = y * node.stride + node.first; l < (y + 1) * node.stride; ++l)
-      child[l] = std::max(static_cast<lane>(node.fields[l] + table[l]), node.floor);
+      child[l] = (std::max)(static_cast<lane>(node.fields[l] + table[l]), node.floor);
 }
 
 inline std::int32_t demand(lane_node const& node, lane const* prices, std::int32_t* wanted) {
-  for (std::size_t y = 0; y < node.slots; ++y) wanted[y] = 0;
+  for (std::size_t y = 0; y < node.slot_count; ++y) wanted[y] = 0;
   std::int32_t total = 0;
   for (std::size_t l = node.first; l < node.stride; ++l) {
-    int best = std::numeric_limits<int>::min();
+    int best = (std::numeric_limits<int>::min)();
     std::size_t at = 0;
-    for (std::size_t y = 0; y < node.slots; ++y) {
+    for (std::size_t y = 0; y < node.slot_count; ++y) {
       int const v = node.fields[y * node.stride + l] - prices[y];
       if (v > best) best = v, at = y;
     }
@@ -342,7 +342,7 @@ struct floats4 {
     return {{a.v[0] * b.v[0], a.v[1] * b.v[1], a.v[2] * b.v[2], a.v[3] * b.v[3]}};
   }
   friend floats4 greater(floats4 a, floats4 b) {
-    for (std::size_t i = 0; i < 4; ++i) a.v[i] = std::max(a.v[i], b.v[i]);
+    for (std::size_t i = 0; i < 4; ++i) a.v[i] = (std::max)(a.v[i], b.v[i]);
     return a;
   }
 };

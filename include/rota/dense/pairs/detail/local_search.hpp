@@ -21,7 +21,7 @@ public:
   std::int64_t improve(pairwise_model const& model, std::span<slot_bounds const> bounds, std::span<slot> best,
                        std::size_t rounds, Stop& stop) {
     agents_ = model.agents();
-    slots_ = model.slots();
+    slots_ = model.slot_count();
     gain_.resize(agents_ * slots_);
     count_.resize(slots_);
     at_.resize(agents_);

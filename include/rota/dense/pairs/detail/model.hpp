@@ -38,7 +38,7 @@ public:
   }
 
   [[nodiscard]] std::size_t agents() const { return agents_; }
-  [[nodiscard]] std::size_t slots() const { return slots_; }
+  [[nodiscard]] std::size_t slot_count() const { return slots_; }
   [[nodiscard]] std::size_t stride() const { return stride_; }
   /// The lane of the agent of that rank; the last lanes are taken.
   [[nodiscard]] std::size_t lane_of(std::size_t rank) const { return stride_ - agents_ + rank; }
@@ -49,7 +49,7 @@ public:
   /// The rank of the next interchangeable agent before, or no_slot.
   [[nodiscard]] std::uint32_t twin_before(std::size_t rank) const { return twin_[rank]; }
   [[nodiscard]] bool floored() const { return floored_; }
-  [[nodiscard]] lane floor() const { return floored_ ? lowest_lane : std::numeric_limits<lane>::min(); }
+  [[nodiscard]] lane floor() const { return floored_ ? lowest_lane : (std::numeric_limits<lane>::min)(); }
 
   /// u_i(x), or `forbidden`, by the caller's numbers.
   [[nodiscard]] std::int64_t unary(std::size_t a, std::size_t x) const { return unary_[a * slots_ + x]; }
@@ -102,7 +102,7 @@ public:
   }
 
 private:
-  static constexpr std::int32_t range = std::numeric_limits<lane>::max() - most_price;
+  static constexpr std::int32_t range = (std::numeric_limits<lane>::max)() - most_price;
   static constexpr std::int32_t floored_range = 8191 - 64;
   static constexpr lane lowest_lane = -16384;
   static constexpr std::int64_t quanta_limit = std::int64_t{1} << 30;
@@ -115,10 +115,10 @@ private:
   }
 
   void read(pairwise_instance const& in) {
-    ROTA_ASSERT(in.agents <= max_pairwise_agents && in.slots() <= max_pairwise_slots);
-    ROTA_ASSERT(in.unary.size() == in.agents * in.slots());
+    ROTA_ASSERT(in.agents <= max_pairwise_agents && in.slot_count() <= max_pairwise_slots);
+    ROTA_ASSERT(in.unary.size() == in.agents * in.slot_count());
     agents_ = in.agents;
-    slots_ = in.slots();
+    slots_ = in.slot_count();
     stride_ = lane_stride(agents_);
     floored_ = false;
     std::uint64_t total = 0;
@@ -128,7 +128,7 @@ private:
       for (std::size_t x = 0; x < slots_; ++x) {
         std::int64_t const u = in.unary[a * slots_ + x];
         unary_[a * slots_ + x] = u == absent ? forbidden : u;
-        if (u != absent) most = std::max(most, magnitude(u));
+        if (u != absent) most = (std::max)(most, magnitude(u));
       }
       total += std::min<std::uint64_t>(most, max_pairwise_total + 1);
     }
@@ -148,7 +148,7 @@ private:
             floored_ = true;
           } else if (here != forbidden) {
             here += *w;
-            most = std::max(most, magnitude(*w));
+            most = (std::max)(most, magnitude(*w));
           }
           pair_at(c.second, y, c.first, x) = here;
         }
@@ -202,7 +202,7 @@ private:
     means_.assign(n * n * m, 0);
     strength_.assign(n * n, 0);
     reach64_.assign(n, 0);
-    unsigned const fine = static_cast<unsigned>(std::max(20, static_cast<int>(std::bit_width(total_))) - 20);
+    unsigned const fine = static_cast<unsigned>((std::max)(20, static_cast<int>(std::bit_width(total_))) - 20);
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = a + 1; b < n; ++b) {
         if (!coupled_[a * n + b]) continue;
@@ -216,7 +216,7 @@ private:
           for (std::size_t y = 0; y < m; ++y) {
             if (w[y] == forbidden) continue;
             std::uint64_t const v = magnitude(w[y] - row[x] - column[y]);
-            most = std::max(most, v);
+            most = (std::max)(most, v);
             squares += (v >> fine) * (v >> fine);
           }
         }
@@ -233,10 +233,10 @@ private:
     spread64_.assign(n, 0);
     for (std::size_t a = 0; a < n; ++a) {
       std::int64_t* const u = &centred_[a * m];
-      std::int64_t least = std::numeric_limits<std::int64_t>::max();
-      std::int64_t most = std::numeric_limits<std::int64_t>::min();
+      std::int64_t least = (std::numeric_limits<std::int64_t>::max)();
+      std::int64_t most = (std::numeric_limits<std::int64_t>::min)();
       for (std::size_t x = 0; x < m; ++x)
-        if (u[x] != forbidden) least = std::min(least, u[x]), most = std::max(most, u[x]);
+        if (u[x] != forbidden) least = (std::min)(least, u[x]), most = (std::max)(most, u[x]);
       std::int64_t const middle = least > most ? 0 : least + (most - least) / 2;
       offset_ += middle;
       spread64_[a] = least > most ? 0 : static_cast<std::uint64_t>(most - middle) + 1;
@@ -310,7 +310,7 @@ private:
     std::size_t const m = slots_;
     bool holes = false;
     std::uint64_t most = 0;
-    for (std::size_t a = 0; a < n; ++a) most = std::max(most, reach64_[a] + spread64_[a]);
+    for (std::size_t a = 0; a < n; ++a) most = (std::max)(most, reach64_[a] + spread64_[a]);
     for (std::int64_t const u : centred_) holes |= u == absent;
     // Rounding up adds at most one quantum per term.
     std::int64_t const room = (floored_ ? floored_range

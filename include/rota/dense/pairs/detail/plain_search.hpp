@@ -24,8 +24,8 @@ public:
   static constexpr std::size_t most_agents = 8;
   static constexpr std::size_t most_slots = 8;
 
-  [[nodiscard]] static constexpr bool suits(std::size_t agents, std::size_t slots) noexcept {
-    return agents <= most_agents && slots <= most_slots;
+  [[nodiscard]] static constexpr bool suits(std::size_t agents, std::size_t slot_count) noexcept {
+    return agents <= most_agents && slot_count <= most_slots;
   }
 
   /// @param limit placements after which it gives up
@@ -50,9 +50,9 @@ private:
   static constexpr std::int64_t nothing = forbidden / 2;
 
   void read(pairwise_instance const& in) {
-    ROTA_ASSERT(in.unary.size() == in.agents * in.slots());
+    ROTA_ASSERT(in.unary.size() == in.agents * in.slot_count());
     agents_ = in.agents;
-    slots_ = in.slots();
+    slots_ = in.slot_count();
     row_ = agents_ * slots_;
     pairs_.assign(row_ * row_, 0);
     for (std::size_t i = 0; i < row_; ++i) fields_[0][i] = in.unary[i] == absent ? forbidden : in.unary[i];
@@ -78,7 +78,7 @@ private:
         std::int64_t most = forbidden;
         for (std::size_t x = 0; x < slots_; ++x) {
           std::int64_t const* const w = &pairs_[(a * slots_ + x) * row_ + b * slots_];
-          most = std::max(most, *std::max_element(w, w + slots_));
+          most = (std::max)(most, *std::max_element(w, w + slots_));
         }
         rest_[a] += most;
       }
@@ -119,7 +119,7 @@ private:
       for (std::size_t i = (d + 1) * slots_; i < row_;) {
         std::int64_t in_best_slot = to[i] = from[i] + add[i];
         for (std::size_t const next = ++i + slots_ - 1; i < next; ++i)
-          in_best_slot = std::max(in_best_slot, to[i] = from[i] + add[i]);
+          in_best_slot = (std::max)(in_best_slot, to[i] = from[i] + add[i]);
         most += in_best_slot;
       }
       if (most <= best_) {

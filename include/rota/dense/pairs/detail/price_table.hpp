@@ -52,7 +52,7 @@ public:
       for (std::size_t r = agents + 1; r-- > 0;) {
         std::size_t sum = 0;
         for (std::size_t t = lower[s]; t <= r && t <= upper[s]; ++t) sum += ways[r - t];
-        ways[r] = std::min(sum, most_finals(agents) + 1);
+        ways[r] = (std::min)(sum, most_finals(agents) + 1);
       }
     return ways[agents];
   }
@@ -78,7 +78,7 @@ public:
       indices_[f] = static_cast<std::uint32_t>(space_->index(finals_[f]));
     numbers_.resize(width_);
     wanted_.resize(slots_);
-    std::size_t const most = std::min(most_states, std::bit_floor(most_entries / std::max<std::size_t>(width_, 8)));
+    std::size_t const most = (std::min)(most_states, std::bit_floor(most_entries / std::max<std::size_t>(width_, 8)));
     std::size_t const size = std::clamp(std::bit_ceil(2 * suffix.states()), std::size_t{64}, most);
     shift_ = static_cast<unsigned>(64 - std::countr_zero(size));
     if (states_.size() < size) states_.resize(size);
@@ -146,7 +146,7 @@ public:
     std::int32_t const most = evaluate(s, now.data(), final);
     std::int32_t const current = value + sum + most;
     // Little for this node may be nothing for others.
-    if (allowed - current < gap / 2) return std::min(allowed, current);
+    if (allowed - current < gap / 2) return (std::min)(allowed, current);
     s.most = most;
     s.final = final;
     s.prices = now;
@@ -172,8 +172,10 @@ private:
       std::copy_n(&means_[(d - 1) * m * m], m * m, to);
       for (std::size_t z = 0; z < m; ++z)
         for (std::size_t y = 0; y < m; ++y) {
-          for (std::size_t j = d; j < n; ++j) to[z * m + y] += std::max(model.pair(d - 1, z, j, y), -8192);
-          for (std::size_t i = 0; i + 1 < d; ++i) to[z * m + y] -= std::max(model.pair(i, z, d - 1, y), -8192);
+          for (std::size_t j = d; j < n; ++j)
+            to[z * m + y] += std::max<std::int32_t>(model.pair(d - 1, z, j, y), -8192);
+          for (std::size_t i = 0; i + 1 < d; ++i)
+            to[z * m + y] -= std::max<std::int32_t>(model.pair(i, z, d - 1, y), -8192);
         }
     }
     for (std::size_t d = n; d-- > 0;)

@@ -18,14 +18,14 @@ struct suffix_plan {
   std::size_t beyond = 0;  ///< so many more, by expansion
 
   /// About half of the agents: from there on, enumerating one more costs more than it saves. At most `effort` steps.
-  static suffix_plan fitting(std::size_t agents, std::size_t slots, std::uint64_t effort) {
+  static suffix_plan fitting(std::size_t agents, std::size_t slot_count, std::uint64_t effort) {
     suffix_plan plan{1, agents < 10 ? 0 : agents / 5 - 1};
     std::uint64_t work = 0;
     std::uint64_t all = 1;
-    for (std::size_t k = 2; 2 * k <= agents && work + all <= std::min(effort, most_work); ++k) {
+    for (std::size_t k = 2; 2 * k <= agents && work + all <= (std::min)(effort, most_work); ++k) {
       plan.exact = k;
       work += all;
-      all *= slots;
+      all *= slot_count;
     }
     return plan;
   }
@@ -49,7 +49,7 @@ public:
   template <class Stop>
   void prepare(pairwise_model const& model, std::span<std::uint32_t const> upper, suffix_plan plan, Stop& stop) {
     agents_ = model.agents();
-    slots_ = model.slots();
+    slots_ = model.slot_count();
     upper_ = upper;
     flatten(model);
     work_ = 0;
@@ -57,14 +57,14 @@ public:
     enumerated_ = 0;
     states_.clear();
     if (agents_ < 3 || plan.exact == 0 || stop()) return;
-    enumerated_ = std::min(plan.exact, agents_ - 1);
-    levels_ = std::min(enumerated_ + plan.beyond, agents_ - 1);
+    enumerated_ = (std::min)(plan.exact, agents_ - 1);
+    levels_ = (std::min)(enumerated_ + plan.beyond, agents_ - 1);
     space_.prepare(upper, agents_, levels_);
     while (levels_ > 0 &&
            (space_.size_of_largest(levels_) > most_states || space_.indices() > count_space::most_indices))
       space_.prepare(upper, agents_, --levels_);
     if (levels_ == 0) return;
-    enumerated_ = std::min(enumerated_, levels_);
+    enumerated_ = (std::min)(enumerated_, levels_);
     width_ = (slots_ + 7) / 8 * 8;
     list_states();
     now_.reserve(stride_ * lanes_at_once);
@@ -80,12 +80,12 @@ public:
         break;
       }
       std::fill_n(by(agents_ - k), space_.size(k) * width_, -impossible);
-      for (std::size_t r = 1; r <= std::min(k - enumerated_, most_placed) && (r == 1 || (affordable(k, r) && !stop()));
-           ++r)
+      for (std::size_t r = 1;
+           r <= (std::min)(k - enumerated_, most_placed) && (r == 1 || (affordable(k, r) && !stop())); ++r)
         expand(model, agents_ - k, r);
       settle(k);
     }
-    for (std::size_t d = agents_ - levels_; d-- > 0;) flat_[d] = std::min(flat_[d], flat_[d + 1] + step_[d]);
+    for (std::size_t d = agents_ - levels_; d-- > 0;) flat_[d] = (std::min)(flat_[d], flat_[d + 1] + step_[d]);
   }
 
   /// Whether the ranks from d on are bounded by counts.
@@ -121,15 +121,15 @@ private:
     flat_.assign(agents_ + 1, 0);
     step_.assign(agents_, 0);
     for (std::size_t d = agents_; d-- > 0;) {
-      std::int32_t most = std::numeric_limits<std::int32_t>::min() / 2;
+      std::int32_t most = (std::numeric_limits<std::int32_t>::min)() / 2;
       for (std::size_t x = 0; x < slots_; ++x) {
         std::int32_t sum = model.share(d, x);
         for (std::size_t j = d + 1; j < agents_; ++j) {
           std::int32_t pair = model.pair(d, x, j, 0);
-          for (std::size_t y = 1; y < slots_; ++y) pair = std::max(pair, model.pair(d, x, j, y));
+          for (std::size_t y = 1; y < slots_; ++y) pair = (std::max)(pair, model.pair(d, x, j, y));
           sum += pair;
         }
-        most = std::max(most, sum);
+        most = (std::max)(most, sum);
       }
       step_[d] = most;
       flat_[d] = flat_[d + 1] + most;
@@ -150,7 +150,7 @@ private:
     for (std::size_t k = 0; k <= levels_; ++k) {
       first_state_[k] = states_.size();
       space_.list(zero_, upper_, k, states_);
-      stride_ = std::max(stride_, states_.size() - first_state_[k]);
+      stride_ = (std::max)(stride_, states_.size() - first_state_[k]);
     }
     first_state_[levels_ + 1] = states_.size();
     state_index_.resize(states_.size());
@@ -179,9 +179,9 @@ private:
     float all = impossible;
     for (std::size_t i = 0; i < space_.size(k); ++i, from += width_) {
       to[i] = *std::max_element(from, from + slots_);
-      all = std::max(all, to[i]);
+      all = (std::max)(all, to[i]);
     }
-    flat_[agents_ - k] = std::min(flat_[agents_ - k], static_cast<std::int32_t>(all));
+    flat_[agents_ - k] = (std::min)(flat_[agents_ - k], static_cast<std::int32_t>(all));
   }
 
   // Enumeration. A column is a pair of slots x ≤ y: once with the last agent but one in x, once with it in y. Lanes hold
@@ -213,8 +213,8 @@ private:
       if (std::uint32_t const i = more(0, 0, x); i != count_space::none)
         if (std::uint32_t const j = more(1, i, y); j != count_space::none) {
           float* const to = by(n - 2) + j * width_;
-          to[x] = std::max(to[x], static_cast<float>(last_pair(model, x, y)));
-          to[y] = std::max(to[y], static_cast<float>(last_pair(model, y, x)));
+          to[x] = (std::max)(to[x], static_cast<float>(last_pair(model, x, y)));
+          to[y] = (std::max)(to[y], static_cast<float>(last_pair(model, y, x)));
         }
       for (std::size_t k = 3; k <= levels; ++k)
         for (std::size_t z = 0; z < slots_; ++z) {
@@ -236,7 +236,7 @@ private:
       for (std::size_t j = d + 1; j < n; ++j) most += pair_most(d, j);
       most += share_most_[d];
       std::size_t const prefixes = space_.size(k - 2);
-      pairs_.assign(slots_ * prefixes * columns_, std::numeric_limits<lane>::min());
+      pairs_.assign(slots_ * prefixes * columns_, (std::numeric_limits<lane>::min)());
       for (std::size_t i = d; i + 2 < n; ++i)
         for (std::size_t x = 0; x < slots_; ++x) inner_[(i - d) * slots_ + x] = model.share(i, x) - share_most_[i];
       place_pairs(model, d, d, 0, 0, pairs_.data(), &sums_[0], &inner_[0]);
@@ -245,11 +245,11 @@ private:
           for (std::size_t c = 0; c < low_.size(); ++c) {
             lane const v = pairs_[(x * prefixes + i) * columns_ + c];
             std::uint32_t const one = more(k - 2, i, low_[c]);
-            if (v == std::numeric_limits<lane>::min() || one == count_space::none) continue;
+            if (v == (std::numeric_limits<lane>::min)() || one == count_space::none) continue;
             std::uint32_t const two = more(k - 1, one, high_[c]);
             if (two == count_space::none) continue;
             float& to = by(d)[two * width_ + x];
-            to = std::max(to, static_cast<float>(most + v * (1 << coarse_)));
+            to = (std::max)(to, static_cast<float>(most + v * (1 << coarse_)));
           }
       settle(k);
     }
@@ -257,7 +257,7 @@ private:
 
   /// A loss in units of 2^coarse_ quanta, rounded up, or the floor.
   [[nodiscard]] lane lost(std::int32_t v, std::int32_t floor) const {
-    return static_cast<lane>(std::max(-(-v >> coarse_), floor));
+    return static_cast<lane>((std::max)(-(-v >> coarse_), floor));
   }
   [[nodiscard]] std::int32_t pair_most(std::size_t i, std::size_t j) const { return pair_most_[i * agents_ + j]; }
   [[nodiscard]] std::int32_t last_pair(pairwise_model const& model, std::size_t x, std::size_t y) const {
@@ -272,13 +272,13 @@ private:
       for (std::size_t j = i + 1; j < agents_; ++j) {
         std::int32_t most = model.pair(i, 0, j, 0);
         for (std::size_t x = 0; x < slots_; ++x)
-          for (std::size_t y = 0; y < slots_; ++y) most = std::max(most, model.pair(i, x, j, y));
+          for (std::size_t y = 0; y < slots_; ++y) most = (std::max)(most, model.pair(i, x, j, y));
         pair_most_[i * agents_ + j] = most;
       }
     }
     last_pair_ = last_pair(model, 0, 0);
     for (std::size_t x = 0; x < slots_; ++x)
-      for (std::size_t y = 0; y < slots_; ++y) last_pair_ = std::max(last_pair_, last_pair(model, x, y));
+      for (std::size_t y = 0; y < slots_; ++y) last_pair_ = (std::max)(last_pair_, last_pair(model, x, y));
     // Entries are 0 on average, so this is about what is lost by chance. It should stay above each floor.
     std::int32_t loss = last_pair_;
     for (std::size_t i = d; i + 2 < agents_; ++i) {
@@ -305,7 +305,7 @@ private:
       lane const* const add = adds + x * 2 * columns_;
       lane* const below = sums + 2 * columns_;
       for (std::size_t c = 0; c < 2 * columns_; ++c)
-        below[c] = std::max(static_cast<lane>(sums[c] + add[c]), column_floor);
+        below[c] = (std::max)(static_cast<lane>(sums[c] + add[c]), column_floor);
       std::int32_t* const rest = inner + width;
       for (std::size_t j = i + 1; j + 2 < n; ++j)
         for (std::size_t y = 0; y < slots_; ++y)
@@ -322,20 +322,20 @@ private:
     row_.assign(space_.size(n - d) * width_, impossible);
     gains_.resize((n - e) * slots_ * lanes_at_once);
     for (std::size_t first = 0; first < ways; first += lanes_at_once) {
-      std::size_t const count = std::min(ways - first, lanes_at_once);
+      std::size_t const count = (std::min)(ways - first, lanes_at_once);
       std::int32_t const most = set_gains(model, d, e, first, count);
       transport(n - e);
       gather(n - d, n - e, placed, first, count, most, best(e));
     }
     float* const to = by(d);
-    for (std::size_t i = 0; i < row_.size(); ++i) to[i] = std::min(to[i], row_[i]);
+    for (std::size_t i = 0; i < row_.size(); ++i) to[i] = (std::min)(to[i], row_[i]);
   }
 
   /// now_ ← what the placed have, gains_ ← what each other agent gets from them, in each way; both as losses.
   std::int32_t set_gains(pairwise_model const& model, std::size_t d, std::size_t e, std::size_t first,
                          std::size_t count) {
     std::size_t const placed = e - d;
-    std::int32_t most = std::numeric_limits<std::int32_t>::min();
+    std::int32_t most = (std::numeric_limits<std::int32_t>::min)();
     std::fill(gains_.begin(), gains_.end(), lane{0});
     worth_.resize(count);
     got_.resize(slots_);
@@ -358,7 +358,7 @@ private:
         value += best;
       }
       worth_[l] = value;
-      most = std::max(most, value);
+      most = (std::max)(most, value);
     }
     now_.assign(lanes_at_once, transport_floor);
     for (std::size_t l = 0; l < count; ++l)
@@ -417,9 +417,9 @@ private:
         for (std::size_t j = l; j < end;) {
           slot const at = ways_[(first + j) * placed];
           lane best = now[j];
-          for (++j; j < end && ways_[(first + j) * placed] == at; ++j) best = std::max(best, now[j]);
+          for (++j; j < end && ways_[(first + j) * placed] == at; ++j) best = (std::max)(best, now[j]);
           float& to = row_[i * width_ + at];
-          to = std::max(to, rest + static_cast<float>(best));
+          to = (std::max)(to, rest + static_cast<float>(best));
         }
       }
       l = end;
