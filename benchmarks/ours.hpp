@@ -31,12 +31,15 @@ public:
     static_assert(peers::forbidden == rota::dense::absent);
   }
   static bool takes(peers::additive_instance const&) { return true; }
-  bool solve() override { return solver().solve(instance_).end == rota::dense::additive_end::optimal; }
-  peers::assignment answer() const override { return {solver().assignment().begin(), solver().assignment().end()}; }
+  bool solve() override {
+    found_ = solver().solve(instance_);
+    return found_.status == rota::dense::status::optimal;
+  }
+  peers::assignment answer() const override { return {found_.assignment.begin(), found_.assignment.end()}; }
 
 private:
-  static rota::dense::additive_solver& solver() {
-    static rota::dense::additive_solver one;
+  static rota::dense::flow_solver& solver() {
+    static rota::dense::flow_solver one;
     return one;
   }
 
@@ -44,6 +47,7 @@ private:
 
 protected:
   rota::dense::instance instance_;
+  rota::dense::outcome found_;
 };
 
 /// The same, content with any optimum where there are several.
@@ -89,20 +93,21 @@ public:
         instance_{in.agents, in.unary, couplings_, bounds_} {}
   static bool takes(peers::pairwise_instance const&) { return true; }
   bool solve() override {
-    auto const out = solver().solve(instance_);
-    return out.found && out.complete;
+    found_ = solver().solve(instance_);
+    return found_.status == rota::dense::status::optimal;
   }
-  peers::assignment answer() const override { return {solver().assignment().begin(), solver().assignment().end()}; }
+  peers::assignment answer() const override { return {found_.assignment.begin(), found_.assignment.end()}; }
 
 private:
-  static rota::dense::pairwise_solver& solver() {
-    static rota::dense::pairwise_solver one;
+  static rota::dense::pair_solver& solver() {
+    static rota::dense::pair_solver one;
     return one;
   }
 
   std::vector<rota::dense::slot_bounds> bounds_;
   std::vector<rota::dense::coupling> couplings_;
-  rota::dense::pairwise_instance instance_;
+  rota::dense::pair_instance instance_;
+  rota::dense::outcome found_;
 };
 
 }  // namespace ours

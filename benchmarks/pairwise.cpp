@@ -23,7 +23,7 @@ struct problem {
   std::vector<rota::dense::slot_bounds> bounds = ours::bounds_of(numbers.bounds);
   std::vector<rota::dense::coupling> couplings = ours::couplings_of(numbers);
 
-  rota::dense::pairwise_instance view() const { return {numbers.agents, numbers.unary, couplings, bounds}; }
+  rota::dense::pair_instance view() const { return {numbers.agents, numbers.unary, couplings, bounds}; }
 };
 
 using make = peers::pairwise_instance (*)(size, std::uint64_t);
@@ -35,7 +35,7 @@ void count(benchmark::State& state, double proved, double nodes) {
 
 void within_a_tick(benchmark::State& state, size s, make family) {
   constexpr std::uint64_t seeds = 30;
-  rota::dense::pairwise_solver solver;
+  rota::dense::pair_solver solver;
   double proved = 0;
   double nodes = 0;
   for (auto _ : state) {
@@ -45,28 +45,29 @@ void within_a_tick(benchmark::State& state, size s, make family) {
       problem const p{family(s, seed)};
       state.ResumeTiming();
       auto const end = clock_type::now() + std::chrono::milliseconds{30};
-      auto const out = solver.solve(p.view(), ~std::uint64_t{0}, [end] { return clock_type::now() >= end; });
-      check(out.found && out.value <= out.bound, "a valid assignment and a bound");
-      proved += out.complete && clock_type::now() <= end ? 1 : 0;
-      nodes += static_cast<double>(out.nodes) / static_cast<double>(seeds);
+      auto const late = [end] { return clock_type::now() >= end; };
+      auto const out = solver.solve(p.view(), {~std::uint64_t{0}, late});
+      check(out.found() && out.value <= out.bound, "a valid assignment and a bound");
+      proved += out.proved() && clock_type::now() <= end ? 1 : 0;
+      nodes += static_cast<double>(out.work.nodes) / static_cast<double>(seeds);
     }
   }
   count(state, proved, nodes);
 }
 
 void one_class(benchmark::State& state, size s, bool symmetry) {
-  rota::dense::pairwise_solver solver;
+  rota::dense::pair_solver solver;
   solver.effort.symmetry = symmetry;
   std::vector<problem> all;
   double nodes = 0;
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     all.push_back({instances::pairwise_one_class(s, seed)});
     auto const out = solver.solve(all.back().view());
-    check(out.complete, "the optimum");
-    rota::dense::pairwise_solver other;
+    check(out.proved(), "the optimum");
+    rota::dense::pair_solver other;
     other.effort.symmetry = !symmetry;
     check(other.solve(all.back().view()).value == out.value, "the same with and without symmetry");
-    nodes += static_cast<double>(out.nodes) / 4;
+    nodes += static_cast<double>(out.work.nodes) / 4;
   }
   rotate(state, all, [&](problem const& p) { return solver.solve(p.view()).value; });
   count(state, 0, nodes);

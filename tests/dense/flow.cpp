@@ -17,13 +17,14 @@
 namespace additive_test {
 
 using namespace dense_world;
-using rota::dense::additive_end;
-using rota::dense::additive_outcome;
-using rota::dense::additive_solver;
+using rota::dense::flow_obstacle;
+using rota::dense::flow_outcome;
+using rota::dense::flow_solver;
 using rota::dense::instance;
 using rota::dense::row_index;
 using rota::dense::slot;
 using rota::dense::slot_bounds;
+using rota::dense::status;
 
 /// A problem as the solver wants it. Owns what the instance views.
 struct dense {
@@ -43,9 +44,9 @@ struct dense {
   std::size_t agents;
 };
 
-std::vector<int> slots_of(additive_solver const& solver) {
+std::vector<int> slots_of(flow_outcome const& found) {
   std::vector<int> x;
-  for (auto const s : solver.assignment()) x.push_back(s == rota::dense::no_slot ? -1 : static_cast<int>(s));
+  for (auto const s : found.assignment) x.push_back(s == rota::dense::no_slot ? -1 : static_cast<int>(s));
   return x;
 }
 
@@ -67,7 +68,7 @@ std::optional<std::int64_t> valid_total(problem const& p, std::vector<int> const
 }
 
 /// What the prices prove that nothing can exceed: Σ_a max_k (u − p) + Σ_k (p_k > 0 ? p_k·upper : p_k·lower).
-long double proven(problem const& p, additive_solver const& solver) {
+long double proven(problem const& p, flow_solver const& solver) {
   auto const price = solver.prices();
   long double most = 0;  // 64 bits of mantissa: exact for what is drawn here
   for (std::size_t a = 0; a < p.agents; ++a) {
@@ -84,7 +85,7 @@ long double proven(problem const& p, additive_solver const& solver) {
 
 /// The bounds that prices are certified with exclude no valid assignment: they are what the problem's imply for the number of
 /// agents, who all go somewhere, or looser.
-void check_bounds(problem const& p, additive_solver const& solver) {
+void check_bounds(problem const& p, flow_solver const& solver) {
   std::int64_t const n = std::count_if(p.part.begin(), p.part.end(), [](auto x) { return x != 0; });
   for (std::size_t s = 0; s < p.slots; ++s) {
     std::int64_t elsewhere_at_least = 0;
@@ -118,29 +119,29 @@ struct shares {
 };
 
 /// One problem against enumeration.
-void agree(problem const& p, additive_solver& solver, shares& s) {
+void agree(problem const& p, flow_solver& solver, shares& s) {
   dense const d(p);
   auto const expected = enumerate(p);
   auto const got = solver.solve(d.view());
   ++s.cases;
   RC_ASSERT(got.found() == expected.has_value());
-  s.stuck += got.end == additive_end::agent_stuck;
-  s.shortage += got.end == additive_end::slot_short;
+  s.stuck += got.obstacle == flow_obstacle::agent_stuck;
+  s.shortage += got.obstacle == flow_obstacle::slot_short;
   if (!expected) return;
   ++s.feasible;
   s.partial += std::count(p.part.begin(), p.part.end(), 0) > 0;
-  RC_ASSERT(got.end == additive_end::optimal);
-  RC_ASSERT(got.utility == expected->total);
+  RC_ASSERT(got.status == status::optimal);
+  RC_ASSERT(got.value == expected->total);
   RC_ASSERT(got.bound == expected->total);
-  RC_ASSERT(slots_of(solver) == expected->slot);
+  RC_ASSERT(slots_of(got) == expected->slot);
   RC_ASSERT(proven(p, solver) == static_cast<long double>(expected->total));
   check_bounds(p, solver);
 }
 
-TEST(additive_solver, is_what_enumeration_finds_first) {
+TEST(flow_solver, is_what_enumeration_finds_first) {
   for (int levels : {1, 3, 10, 1000}) {
     shares s;
-    additive_solver solver;
+    flow_solver solver;
     EXPECT_TRUE(rc::check([&] {
       dice d(*small_world::any_seed().as("seed"));
       agree(random_problem(d, {.agents = 6, .slots = 4, .levels = levels}), solver, s);
@@ -153,7 +154,7 @@ TEST(additive_solver, is_what_enumeration_finds_first) {
 }
 
 /// One problem too large to enumerate, against GLPK.
-void agree_with_glpk(problem const& p, additive_solver& solver, shares& s) {
+void agree_with_glpk(problem const& p, flow_solver& solver, shares& s) {
   dense const d(p);
   auto const expected = greatest_by_glpk(p);
   auto const got = solver.solve(d.view());
@@ -161,18 +162,18 @@ void agree_with_glpk(problem const& p, additive_solver& solver, shares& s) {
   RC_ASSERT(got.found() == expected.has_value());
   if (!expected) return;
   ++s.feasible;
-  RC_ASSERT(got.utility == *expected);
-  RC_ASSERT(valid_total(p, slots_of(solver)) == expected);
+  RC_ASSERT(got.value == *expected);
+  RC_ASSERT(valid_total(p, slots_of(got)) == expected);
   RC_ASSERT(proven(p, solver) == static_cast<long double>(*expected));
   check_bounds(p, solver);
 }
 
-TEST(additive_solver, is_as_good_as_glpk) {
+TEST(flow_solver, is_as_good_as_glpk) {
   for (auto const& f :
        {flavour{.agents = 40, .slots = 12, .levels = 1000}, flavour{.agents = 60, .slots = 3, .levels = 3},
         flavour{.agents = 200, .slots = 6, .levels = 100000}, flavour{.agents = 25, .levels = 50, .squares = true}}) {
     shares s;
-    additive_solver solver;
+    flow_solver solver;
     EXPECT_TRUE(rc::check([&] {
       dice d(*small_world::any_seed().as("seed"));
       agree_with_glpk(random_problem(d, f), solver, s);
@@ -181,12 +182,12 @@ TEST(additive_solver, is_as_good_as_glpk) {
   }
 }
 
-TEST(additive_solver, warm_is_cold) {
+TEST(flow_solver, warm_is_cold) {
   for (auto const& f :
        {flavour{.agents = 8, .slots = 5, .levels = 3}, flavour{.agents = 40, .slots = 10, .levels = 10},
         flavour{.agents = 250, .slots = 4, .levels = 1000000}, flavour{.agents = 12, .levels = 4, .squares = true}}) {
     shares s;
-    additive_solver warm;
+    flow_solver warm;
     EXPECT_TRUE(rc::check([&] {
       dice d(*small_world::any_seed().as("seed"));
       auto p = random_problem(d, f);
@@ -196,16 +197,17 @@ TEST(additive_solver, warm_is_cold) {
         mutate(d, f, p, changed);
         dense const now(p);
         auto const got = warm.resolve(now.view(), changed);
-        additive_solver cold;
+        flow_solver cold;
         auto const expected = cold.solve(now.view());
-        RC_ASSERT(got.end == expected.end);
+        RC_ASSERT(got.status == expected.status);
+        RC_ASSERT(got.obstacle == expected.obstacle);
         RC_ASSERT(got.witness == expected.witness);
-        RC_ASSERT(got.utility == expected.utility);
+        RC_ASSERT(got.value == expected.value);
         ++s.cases;
         s.warm += got.warm;
         if (!got.found()) continue;
-        RC_ASSERT(slots_of(warm) == slots_of(cold));
-        RC_ASSERT(proven(p, warm) == static_cast<long double>(got.utility));
+        RC_ASSERT(slots_of(got) == slots_of(expected));
+        RC_ASSERT(proven(p, warm) == static_cast<long double>(got.value));
         check_bounds(p, warm);
       }
     }));
@@ -213,7 +215,7 @@ TEST(additive_solver, warm_is_cold) {
   }
 }
 
-TEST(additive_solver, permuted_agents_get_the_same_slots) {
+TEST(flow_solver, permuted_agents_get_the_same_slots) {
   int tied = 0;
   EXPECT_TRUE(rc::check([&] {
     dice d(*small_world::any_seed().as("seed"));
@@ -230,17 +232,17 @@ TEST(additive_solver, permuted_agents_get_the_same_slots) {
     for (auto const a : order)
       shuffled.insert(shuffled.end(), keys.begin() + static_cast<std::ptrdiff_t>(a * m),
                       keys.begin() + static_cast<std::ptrdiff_t>((a + 1) * m));
-    additive_solver first, second;
+    flow_solver first, second;
     auto const x = first.solve({n, keys, bounds});
     auto const y = second.solve({n, shuffled, bounds});
-    RC_ASSERT(x.utility == y.utility);
-    for (std::size_t i = 0; i < n; ++i) RC_ASSERT(second.assignment()[i] == first.assignment()[order[i]]);
+    RC_ASSERT(x.value == y.value);
+    for (std::size_t i = 0; i < n; ++i) RC_ASSERT(y.assignment[i] == x.assignment[order[i]]);
     tied += n > 10;
   }));
   EXPECT_GT(tied, 0);
 }
 
-TEST(additive_solver, within_any_limit_is_valid_and_says_how_far_off) {
+TEST(flow_solver, within_any_limit_is_valid_and_says_how_far_off) {
   for (auto const& f :
        {flavour{.agents = 60, .slots = 10, .levels = 50}, flavour{.agents = 150, .slots = 8, .levels = 1000}}) {
     shares s;
@@ -248,25 +250,26 @@ TEST(additive_solver, within_any_limit_is_valid_and_says_how_far_off) {
       dice d(*small_world::any_seed().as("seed"));
       auto const p = random_problem(d, f);
       dense const in(p);
-      additive_solver cold, limited;
+      flow_solver cold, limited;
       auto const best = cold.solve(in.view());
       auto const got = limited.solve(in.view(), {static_cast<std::uint64_t>(d.below(300)), {}});
       RC_ASSERT(got.found() == best.found());
       ++s.cases;
       if (!best.found()) return;
-      s.interrupted += got.end == additive_end::interrupted;
-      RC_ASSERT(got.utility <= best.utility);
-      RC_ASSERT(got.bound >= best.utility);
-      RC_ASSERT(valid_total(p, slots_of(limited)) == got.utility);
+      s.interrupted += got.status == status::feasible;
+      RC_ASSERT(got.value <= best.value);
+      RC_ASSERT(got.bound >= best.value);
+      RC_ASSERT(valid_total(p, slots_of(got)) == got.value);
       // And it is as good as new.
-      RC_ASSERT(limited.resolve(in.view(), {}).utility == best.utility);
-      RC_ASSERT(slots_of(limited) == slots_of(cold));
+      auto const again = limited.resolve(in.view(), {});
+      RC_ASSERT(again.value == best.value);
+      RC_ASSERT(slots_of(again) == slots_of(best));
     }));
     EXPECT_GE(s.interrupted * 100, s.cases * 10) << f.agents;
   }
 }
 
-TEST(additive_solver, stops_when_asked_to) {
+TEST(flow_solver, stops_when_asked_to) {
   dice d(7);
   auto p = random_problem(d, {.agents = 200, .slots = 8, .levels = 1000, .forbidden = 0});
   p.agents = 200;
@@ -277,15 +280,15 @@ TEST(additive_solver, stops_when_asked_to) {
   p.bounds.assign(8, {0, 25});
   int asked = 0;
   auto const third_time = [&] { return ++asked >= 3; };
-  additive_solver solver;
+  flow_solver solver;
   auto const got = solver.solve(dense(p).view(), {std::numeric_limits<std::uint64_t>::max(), third_time});
-  EXPECT_EQ(got.end, additive_end::interrupted);
-  EXPECT_GT(got.bound, got.utility);
-  EXPECT_EQ(valid_total(p, slots_of(solver)), got.utility);
+  EXPECT_EQ(got.status, status::feasible);
+  EXPECT_GT(got.bound, got.value);
+  EXPECT_EQ(valid_total(p, slots_of(got)), got.value);
 }
 
 // As large as the preconditions allow: sums must neither wrap nor meet what marks an absent pair.
-TEST(additive_solver, at_the_limits_of_its_numbers) {
+TEST(flow_solver, at_the_limits_of_its_numbers) {
   EXPECT_TRUE(rc::check([&] {
     dice d(*small_world::any_seed().as("seed"));
     auto p = random_problem(d, {.agents = 6, .slots = 4, .levels = 3});
@@ -293,7 +296,7 @@ TEST(additive_solver, at_the_limits_of_its_numbers) {
     auto const total = rota::dense::max_total / static_cast<std::int64_t>(std::max<std::size_t>(p.agents, 1));
     for (auto& u : p.utility)
       if (u) *u = *u * std::min(reach, total);
-    additive_solver solver;
+    flow_solver solver;
     shares s;
     agree(p, solver, s);
     std::vector<row_index> changed;
@@ -306,54 +309,54 @@ TEST(additive_solver, at_the_limits_of_its_numbers) {
       auto const got = solver.resolve(now.view(), changed);
       auto const expected = enumerate(p);
       RC_ASSERT(got.found() == expected.has_value());
-      if (expected) RC_ASSERT(got.utility == expected->total);
+      if (expected) RC_ASSERT(got.value == expected->total);
     }
   }));
 }
 
 // Where all bounds are exact nothing trades with the sink, so each turn lifts the prices of the two slots over it.
-TEST(additive_solver, prices_that_climb_do_not_go_out_of_range) {
+TEST(flow_solver, prices_that_climb_do_not_go_out_of_range) {
   problem p;
   p.agents = 2;
   p.slots = 2;
   p.part = {1, 1};
   p.bounds = {{1, 1}, {1, 1}};
   auto const much = rota::dense::max_reach / 4;
-  additive_solver solver;
+  flow_solver solver;
   std::vector<row_index> const both{0, 1};
   for (int turn = 0; turn < 200; ++turn) {
     // Everybody would rather be here, then there; agent 1 a little more so.
     if (turn % 2 == 0) p.utility = {much - 1, -much, much, -much};
     if (turn % 2 == 1) p.utility = {-much, much - 1, -much, much};
     auto const got = turn == 0 ? solver.solve(dense(p).view()) : solver.resolve(dense(p).view(), both);
-    ASSERT_EQ(got.utility, enumerate(p)->total) << turn;
-    ASSERT_EQ(slots_of(solver), enumerate(p)->slot) << turn;
+    ASSERT_EQ(got.value, enumerate(p)->total) << turn;
+    ASSERT_EQ(slots_of(got), enumerate(p)->slot) << turn;
     for (auto const price : solver.prices()) ASSERT_LE(std::abs(price), 4 * rota::dense::max_reach) << turn;
   }
 }
 
-TEST(additive_solver, impossible_problems_have_a_witness_and_leave_it_usable) {
+TEST(flow_solver, impossible_problems_have_a_witness_and_leave_it_usable) {
   using rota::dense::absent;
-  additive_solver solver;
+  flow_solver solver;
   auto solve = [&](std::vector<std::int64_t> const& u, std::vector<slot_bounds> const& b) {
     return solver.solve({u.size() / b.size(), u, b});
   };
   auto const more_needed = solve({1, 1}, {{2, 2}, {1, 1}});
-  EXPECT_EQ(more_needed.end, additive_end::slot_short) << "one agent, three needed";
-  EXPECT_EQ(solve({1, 1}, {{2, 1}, {0, 1}}).end, additive_end::slot_short) << "lower above upper";
+  EXPECT_EQ(more_needed.obstacle, flow_obstacle::slot_short) << "one agent, three needed";
+  EXPECT_EQ(solve({1, 1}, {{2, 1}, {0, 1}}).obstacle, flow_obstacle::slot_short) << "lower above upper";
   auto const forbidden = solve({1, 1, absent, absent}, {{0, 2}, {0, 2}});
-  EXPECT_EQ(forbidden.end, additive_end::agent_stuck);
+  EXPECT_EQ(forbidden.obstacle, flow_obstacle::agent_stuck);
   EXPECT_EQ(forbidden.witness, 1u);
   auto const unreachable = solve({1, absent, 1, absent}, {{0, 2}, {1, 1}});
-  EXPECT_EQ(unreachable.end, additive_end::agent_stuck) << "one of them is needed where neither may go";
+  EXPECT_EQ(unreachable.obstacle, flow_obstacle::agent_stuck) << "one of them is needed where neither may go";
   EXPECT_EQ(unreachable.witness, 0u);
-  EXPECT_EQ(solver.solve({0, {}, {}}).end, additive_end::optimal) << "nobody and nothing";
+  EXPECT_EQ(solver.solve({0, {}, {}}).status, status::optimal) << "nobody and nothing";
   auto const fine = solve({1, 2, 5, 3}, {{1, 1}, {1, 1}});
-  EXPECT_EQ(fine.end, additive_end::optimal);
-  EXPECT_EQ(fine.utility, 7);
+  EXPECT_EQ(fine.status, status::optimal);
+  EXPECT_EQ(fine.value, 7);
 }
 
-TEST(additive_solver, a_steady_loop_allocates_nothing) {
+TEST(flow_solver, a_steady_loop_allocates_nothing) {
   for (auto const& f : {flavour{.agents = 5, .slots = 4}, flavour{.agents = 200, .slots = 10}}) {
     dice d(3);
     problem p;
@@ -363,7 +366,7 @@ TEST(additive_solver, a_steady_loop_allocates_nothing) {
     p.bounds.assign(p.slots, {0, static_cast<unsigned>(p.agents / p.slots + 1)});
     for (std::size_t i = 0; i < p.agents * p.slots; ++i) p.utility.push_back(d.below(1000000));
     dense in(p);
-    additive_solver solver;
+    flow_solver solver;
     std::vector<row_index> changed{0};
     auto const loop = [&] {
       for (int step = 0; step < 200; ++step) {
@@ -412,17 +415,18 @@ TEST(tie_rule, keys_decide_ties_and_nothing_else) {
         RC_ASSERT(rota::dense::fits(p.agents, p.slots, size));
       }
     }
-    additive_solver plain, by_key;
+    flow_solver plain, by_key;
     auto const expected = plain.solve(in.view());
     auto view = keyed.view();
     view.unique = rule.unique();
     auto const got = by_key.solve(view);
-    RC_ASSERT(got.end == expected.end);
+    RC_ASSERT(got.status == expected.status);
+    RC_ASSERT(got.obstacle == expected.obstacle);
     if (!got.found()) return;
-    RC_ASSERT(rule.utility(got.utility) == expected.utility);
+    RC_ASSERT(rule.utility(got.value) == expected.value);
     if (!rule.unique()) return void(++hashed);
     ++unique;
-    RC_ASSERT(slots_of(by_key) == slots_of(plain));
+    RC_ASSERT(slots_of(got) == slots_of(expected));
   }));
   EXPECT_GE(unique, 100);
   EXPECT_GE(hashed, 30);

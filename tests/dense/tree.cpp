@@ -156,19 +156,19 @@ TEST(tree_solver, finds_what_enumeration_finds_first_and_accounts_for_all) {
     if (degenerate(s)) return;
     tree_solver solver;
     auto const got = solver.solve(s.in, s.asked, {.audit = true});
-    RC_ASSERT(got.complete);
+    RC_ASSERT(got.proved());
     RC_ASSERT(!got.lie);
-    RC_ASSERT(got.found == (s.best != nothing));
+    RC_ASSERT(got.found() == (s.best != nothing));
     RC_ASSERT(got.account.covered == s.all());
     cut += got.account.bounded > 0;
     hopeless += got.account.hopeless > 0;
     pairs += got.account.pairs > 0;
-    if (!got.found) return;
+    if (!got.found()) return;
     ++found;
     RC_ASSERT(got.value == s.best);
     RC_ASSERT(got.bound == s.best);
     auto const first = s.first();
-    RC_ASSERT(std::equal(first.begin(), first.end(), solver.assignment().begin(), solver.assignment().end()));
+    RC_ASSERT(std::equal(first.begin(), first.end(), got.assignment.begin(), got.assignment.end()));
   }));
   EXPECT_GE(found, 300);
   EXPECT_GE(cut, 200);
@@ -187,10 +187,10 @@ TEST(tree_solver, within_any_limit_its_bound_holds) {
     if (degenerate(s)) return;
     tree_solver solver;
     auto const got = solver.solve(s.in, s.asked, {.limit = {static_cast<std::uint64_t>(d.below(60)), {}}});
-    if (got.complete) return;
+    if (got.proved()) return;
     ++interrupted;
     RC_ASSERT(got.bound >= s.best);
-    RC_ASSERT(!got.found || got.value <= s.best);
+    RC_ASSERT(!got.found() || got.value <= s.best);
     RC_ASSERT(got.account.covered != s.all());
     narrowed += got.bound < s.best + s.asked.slack + 1 && got.bound != rota::dense::no_bound;
   }));
@@ -216,7 +216,7 @@ TEST(tree_solver, improves_on_what_is_known_or_keeps_its_first) {
     auto const got = solver.solve(s.in, s.asked, options);
     RC_ASSERT(got.value == s.best);
     auto const first = s.first();
-    RC_ASSERT(std::equal(first.begin(), first.end(), solver.assignment().begin(), solver.assignment().end()));
+    RC_ASSERT(std::equal(first.begin(), first.end(), got.assignment.begin(), got.assignment.end()));
     kept += options.known_value == s.best;
   }));
   EXPECT_GE(kept, 100);
@@ -240,14 +240,14 @@ TEST(tree_solver, interchangeable_agents_are_tried_in_one_order_only) {
     tree_options options;
     options.twin = twin;
     auto const got = solver.solve(s.in, s.asked, options);
-    RC_ASSERT(got.found == plain.found);
+    RC_ASSERT(got.found() == plain.found());
     RC_ASSERT(got.account.nodes <= plain.account.nodes);
     RC_ASSERT(got.account.covered == s.all());
     mirrored += got.account.mirrored > 0;
-    if (!got.found) return;
+    if (!got.found()) return;
     RC_ASSERT(got.value == s.best);
     auto const first = s.first();
-    RC_ASSERT(std::equal(first.begin(), first.end(), solver.assignment().begin(), solver.assignment().end()));
+    RC_ASSERT(std::equal(first.begin(), first.end(), got.assignment.begin(), got.assignment.end()));
   }));
   EXPECT_GE(mirrored, 150);
 }
@@ -268,7 +268,7 @@ TEST(tree_solver, a_bound_that_lies_is_found_out) {
     audited += got.lie && !plain.lie;
     if (!got.lie) return;
     ++lies;
-    auto const refuter = solver.refuter();
+    auto const refuter = got.lie->assignment;
     RC_ASSERT(s.asked.value(refuter) == got.lie->value);
     RC_ASSERT(got.lie->bound < got.lie->value);
     RC_ASSERT(s.asked.bound(refuter.first(got.lie->depth), 0) == got.lie->bound);
@@ -286,8 +286,8 @@ TEST(tree_solver, stops_when_asked_to) {
   auto const soon = [&] { return ++calls > 2; };
   tree_solver solver;
   auto const got = solver.solve({12, utility, bounds}, asked, {.limit = {~std::uint64_t{0}, soon}});
-  EXPECT_FALSE(got.complete);
-  EXPECT_TRUE(got.found);
+  EXPECT_FALSE(got.proved());
+  EXPECT_TRUE(got.found());
   EXPECT_EQ(got.bound, rota::dense::no_bound);
   EXPECT_LE(got.account.nodes, 4096u);
 }
@@ -427,8 +427,8 @@ TEST(tree_solver, a_bound_that_denies_what_is_known_lies) {
     auto const got = solver.solve(s.in, s.asked, options);
     RC_ASSERT(got.lie);
     RC_ASSERT(got.lie->bound < got.lie->value);
-    RC_ASSERT(s.asked.value(solver.refuter()) == got.lie->value);
-    RC_ASSERT(s.asked.bound(solver.refuter().first(got.lie->depth), 0) == got.lie->bound);
+    RC_ASSERT(s.asked.value(got.lie->assignment) == got.lie->value);
+    RC_ASSERT(s.asked.bound(got.lie->assignment.first(got.lie->depth), 0) == got.lie->bound);
     ++lies;
   }));
   EXPECT_GE(lies, 200);

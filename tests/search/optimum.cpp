@@ -206,7 +206,7 @@ TEST(best_allocation, depends_on_no_listing_order_and_no_history) {
 
 // Larger than enumeration can go: additive optima against branch and bound, which shares nothing with the flow.
 TEST(best_allocation, flow_and_tree_agree) {
-  rota::dense::additive_solver flow;
+  rota::dense::flow_solver flow;
   rota::dense::tree_solver tree;
   struct plain final : rota::dense::tree_oracle {
     std::vector<std::int64_t> suffix;
@@ -248,15 +248,15 @@ TEST(best_allocation, flow_and_tree_agree) {
     auto const slow = tree.solve(in, oracle);
     // The tree also counts as a leaf the empty assignment, whose lower bounds it leaves to its caller.
     if (n == 0) return;
-    RC_ASSERT(slow.complete);
-    RC_ASSERT(slow.found == (fast.end == rota::dense::additive_end::optimal));
-    feasible += slow.found;
-    stuck += fast.end == rota::dense::additive_end::agent_stuck;
-    shortage += fast.end == rota::dense::additive_end::slot_short;
-    if (!slow.found) return;
-    RC_ASSERT(slow.value == fast.utility);
-    RC_ASSERT(std::equal(tree.assignment().begin(), tree.assignment().end(), flow.assignment().begin(),
-                         flow.assignment().end()));
+    RC_ASSERT(slow.proved());
+    RC_ASSERT(slow.status == fast.status);
+    feasible += slow.found();
+    stuck += fast.obstacle == rota::dense::flow_obstacle::agent_stuck;
+    shortage += fast.obstacle == rota::dense::flow_obstacle::slot_short;
+    if (!slow.found()) return;
+    RC_ASSERT(slow.value == fast.value);
+    RC_ASSERT(
+        std::equal(slow.assignment.begin(), slow.assignment.end(), fast.assignment.begin(), fast.assignment.end()));
   }));
   EXPECT_GE(feasible, 300);
   EXPECT_GE(stuck, 50);

@@ -5,7 +5,6 @@
 namespace rota {
 
 struct search_budget;
-struct search_work;
 class workspace;
 enum class no_plan_reason : unsigned char;
 enum class reallocation_reason : unsigned char;

@@ -16,8 +16,8 @@ namespace rota::dense {
 /// Write with `resize`, `put` for all pairs, `finish`. Memory O(n²·m²) for n agents and m slots.
 class pair_tables {
 public:
-  [[nodiscard]] static constexpr bool suit(std::size_t agents, std::size_t slot_count) noexcept {
-    return agents <= max_pairwise_agents && slot_count <= max_pairwise_slots;
+  [[nodiscard]] static constexpr bool suit(std::size_t agents, std::size_t slots) noexcept {
+    return agents <= max_pair_agents && slots <= max_pair_slots;
   }
 
   /// All 0, unless they have that size already.
@@ -35,7 +35,7 @@ public:
     return true;
   }
 
-  /// Makes couplings and bounds of what was put. @return false if Σ_{i<j} max|w_ij| exceeds `max_pairwise_total`: then no
+  /// Makes couplings and bounds of what was put. @return false if Σ_{i<j} max|w_ij| exceeds `max_pair_total`: then no
   /// more may be asked @pre `unary` as in `pairwise_instance`
   bool finish(std::span<std::int64_t const> unary) {
     if (!find_couplings()) return false;
@@ -59,9 +59,9 @@ public:
     return true;
   }
 
-  /// Whether they and `unary` together keep within `max_pairwise_total`, which the pairwise solver asks for. O(n·m)
+  /// Whether they and `unary` together keep within `max_pair_total`, which the pairwise solver asks for. O(n·m)
   [[nodiscard]] bool within_range(std::span<std::int64_t const> unary) const {
-    auto left = static_cast<std::uint64_t>(max_pairwise_total) - magnitude_;
+    auto left = static_cast<std::uint64_t>(max_pair_total) - magnitude_;
     for (std::size_t i = 0; i < agents_; ++i) {
       std::uint64_t most = 0;
       for (auto const u : unary.subspan(i * slots_, slots_))
@@ -87,10 +87,10 @@ public:
 
 private:
   // One of it in a sum, and the sum is below all that are allowed.
-  static constexpr std::int64_t forbidden = -2 * max_pairwise_total;
+  static constexpr std::int64_t forbidden = -2 * max_pair_total;
 
   static std::optional<std::int64_t> unless_forbidden(std::int64_t sum) {
-    return sum < -max_pairwise_total ? std::nullopt : std::optional{sum};
+    return sum < -max_pair_total ? std::nullopt : std::optional{sum};
   }
   bool find_couplings() {
     couplings_.clear();
@@ -104,7 +104,7 @@ private:
           forbids |= w == absent;
           if (w != absent) greatest = (std::max)(greatest, static_cast<std::uint64_t>(w < 0 ? -w : w));
         }
-        if (greatest > static_cast<std::uint64_t>(max_pairwise_total) - magnitude_) return false;
+        if (greatest > static_cast<std::uint64_t>(max_pair_total) - magnitude_) return false;
         magnitude_ += greatest;
         if (greatest != 0 || forbids)
           couplings_.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), table});

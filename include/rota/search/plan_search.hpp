@@ -54,12 +54,11 @@ public:
       return refuse();
     }
     if (!coupled()) {
-      bool const settled = first.end == dense::additive_end::optimal && form_.change_cost() == 0;
-      if (settled && units(first.utility) < 0) return negative(units(first.utility));
-      auto const assignment = memory_.solver.assignment();
-      auto const value = leaf(assignment, first.utility, std::nullopt);
-      if (value && utility_of(assignment, units(first.utility)) >= 0)
-        return accept(assignment, units(first.utility), units(first.bound));
+      bool const settled = first.proved() && form_.change_cost() == 0;
+      if (settled && units(first.value) < 0) return negative(units(first.value));
+      auto const value = leaf(first.assignment, first.value, std::nullopt);
+      if (value && utility_of(first.assignment, units(first.value)) >= 0)
+        return accept(first.assignment, units(first.value), units(first.bound));
     } else {
       in.utility = memory_.units;
       tables_ = pairwise_ && form_.write_pairs();
@@ -126,25 +125,21 @@ private:
 
   // Additive ------------------------------------------------------------------------------------------------------------
 
-  dense::additive_outcome const& solve_additive(dense::instance const& in, search_budget const& budget,
-                                                search_work& done) {
+  dense::flow_outcome const& solve_additive(dense::instance const& in, search_budget const& budget, search_work& done) {
     if (memory_.solved) return memory_.last;
     dense::work_limit const limit{budget.relaxations, budget.stop};
     memory_.last = memory_.solver.resolve(in, memory_.changed, limit);
     memory_.seen = true;
-    memory_.solved = memory_.last.end != dense::additive_end::interrupted;
-    done.changed_rows += memory_.changed.size();
-    done.searches += memory_.last.searches;
-    done.augmentations += memory_.last.augmentations;
-    done.relaxations += memory_.last.relaxations;
+    memory_.solved = memory_.last.proved();
+    done += memory_.last.work;
     return memory_.last;
   }
 
-  void explain(dense::additive_outcome const& o) {
+  void explain(dense::flow_outcome const& o) {
     if (form_.blame_utility()) return;
     auto& refusal = form_.refusal();
     refusal.why = no_plan_reason::pairs_contradict;
-    if (o.end == dense::additive_end::agent_stuck) {
+    if (o.obstacle == dense::flow_obstacle::agent_stuck) {
       refusal.agent = problem_.participants[o.witness];
     } else if (o.witness < plan_.tasks().size()) {
       refusal.task = plan_.tasks()[o.witness].task;
@@ -158,56 +153,46 @@ private:
     if (!tables_ || general_ || precondition_ || !memory_.pairs.within_range(in.utility)) return std::nullopt;
     auto& m = memory_;
     if (!m.settled) {
-      m.together = work_.pairwise.solve({in.agents, m.units, m.pairs.couplings(), m.bounds}, budget.nodes, budget.stop);
-      auto const placed = work_.pairwise.assignment();
-      m.placed.assign(placed.begin(), placed.end());
-      m.settled = m.together.complete;
-      note_work(done);
+      m.together =
+          work_.pairwise.solve({in.agents, m.units, m.pairs.couplings(), m.bounds}, {budget.nodes, budget.stop});
+      m.placed.assign(m.together.assignment.begin(), m.together.assignment.end());
+      m.settled = m.together.proved();
+      done += m.together.work;
     }
     auto const& found = m.together;
-    if (found.found && utility_of(m.placed, found.value) >= 0)  // short of proving it canonical, it is not optimal
-      return accept(m.placed, found.value, found.complete ? found.value : (std::max)(found.bound, found.value + 1));
-    if (found.complete && !found.found) {
+    if (found.found() && utility_of(m.placed, found.value) >= 0)  // short of proving it canonical, it is not optimal
+      return accept(m.placed, found.value, found.proved() ? found.value : std::max(found.bound, found.value + 1));
+    if (found.status == dense::status::infeasible) {
       coupling_fault_ = form_.pair_fault();
       return coupling_refused();
     }
     if (form_.change_cost() == 0 && found.bound < 0) return negative(found.bound);
-    if (found.complete) return std::nullopt;
+    if (found.proved()) return std::nullopt;
     auto out = refuse(no_plan_reason::search_incomplete);
     out.bound = found.bound;
     return out;
   }
-  void note_work(search_work& done) const {
-    done.nodes += memory_.together.nodes;
-    for (auto const& t : work_.pairwise.account()) {
-      done.leaves += t.leaves;
-      done.pruned += t.by_bound + t.by_cardinality + t.by_absence + t.by_symmetry;
-    }
-  }
 
   // Branch and bound ----------------------------------------------------------------------------------------------------
 
-  outcome branch(dense::instance const& in, dense::additive_outcome const& first, search_budget const& budget,
+  outcome branch(dense::instance const& in, dense::flow_outcome const& first, search_budget const& budget,
                  search_work& done) {
     price_in(in.agents, in.slot_count());
     dense::tree_options options;
     options.limit = {budget.nodes, budget.stop};
     options.audit = budget.audit;
-    if (!coupled() && first.end == dense::additive_end::optimal && form_.change_cost() == 0)
-      options.enough = first.utility;
+    if (!coupled() && first.proved() && form_.change_cost() == 0) options.enough = first.value;
     if (find_twins(in)) options.twin = work_.twin;
-    begin_with(in, options);
+    begin_with(in, first, options);
     auto const tree = work_.tree.solve(in, *this, options);
-    done.nodes += tree.account.nodes;
-    done.leaves += tree.account.leaves;
-    done.pruned += tree.account.pairs + tree.account.bounded + tree.account.hopeless + tree.account.mirrored;
+    done += tree.work;
     if (tree.lie) note_lie(in, *tree.lie);
-    bool const proved = tree.complete && !tree.lie;
+    bool const proved = tree.proved() && !tree.lie;
     auto const as_units = [&](std::int64_t value) { return coupled() ? value : units(value); };
-    if (tree.found) {
+    if (tree.found()) {
       auto const objective = as_units(tree.value);
-      if (utility_of(work_.tree.assignment(), objective) >= 0)
-        return accept(work_.tree.assignment(), objective,
+      if (utility_of(tree.assignment, objective) >= 0)
+        return accept(tree.assignment, objective,
                       proved                          ? objective
                       : tree.lie                      ? dense::no_bound
                       : tree.bound == dense::no_bound ? tree.bound
@@ -226,7 +211,7 @@ private:
 
   /// Something to begin with, so that even a search that is stopped at once has an answer: what is best for agents alone, or
   /// what the team does now, if that is admissible.
-  void begin_with(dense::instance const& in, dense::tree_options& options) {
+  void begin_with(dense::instance const& in, dense::flow_outcome const& first, dense::tree_options& options) {
     auto const offer = [&](std::span<dense::slot const> x) {
       auto const sum = dense::value_of(in, x);
       if (!sum) return;
@@ -235,7 +220,7 @@ private:
       options.known = x;
       options.known_value = *value;
     };
-    if (coupled()) offer(memory_.solver.assignment());  // otherwise it has been tried
+    if (coupled()) offer(first.assignment);  // otherwise it has been tried
     if (!problem_.current.empty()) offer(work_.now);
   }
 
@@ -414,8 +399,8 @@ private:
       return allocation_atoms<V>(view.begin(), view.end());
     };
     l.plan = plan_.id();
-    l.partial = set(work_.tree.refuter().first(r.depth));
-    l.complete = set(work_.tree.refuter());
+    l.partial = set(r.assignment.first(r.depth));
+    l.complete = set(r.assignment);
     l.undecided = in.agents - r.depth;
     l.bound = to_double({r.bound});
     l.value = to_double({r.value});

@@ -21,12 +21,12 @@ struct plan_memory {
   dense::tie_rule ties;
   dense::buffer<dense::row_index> changed;  ///< rows that the solver has not seen
   bool seen = false;                        ///< whether it has seen all the others
-  dense::additive_solver solver;
-  dense::additive_outcome last;  ///< of the solver, on `keys` and `bounds`
-  bool solved = false;           ///< whether it still holds
+  dense::flow_solver solver;
+  dense::flow_outcome last;  ///< of the solver, on `keys` and `bounds`
+  bool solved = false;       ///< whether it still holds
 
   dense::pair_tables pairs;           ///< what parts of U_p say of two agents, where they are not too many
-  dense::pairwise_outcome together;   ///< of the pairwise solver, on `units`, `pairs` and `bounds`
+  dense::pair_outcome together;       ///< of the pairwise solver, on `units`, `pairs` and `bounds`
   dense::buffer<dense::slot> placed;  ///< its assignment
   bool settled = false;               ///< whether both still hold
 };
@@ -35,12 +35,12 @@ struct plan_memory {
 /// on it: optima are canonical.
 ///
 /// Grows to O(n·t + t²) integers a plan for the largest problem it met, n agents and t tasks, and O(n²·t²) where utilities
-/// are pairwise; for these a solver besides, with up to 120 MB (see `dense::pairwise_solver`). One per thread.
+/// are pairwise; for these a solver besides, with up to 120 MB (see `dense::pair_solver`). One per thread.
 class workspace {
 public:
   std::vector<plan_memory> plans;  ///< by their order in the plan type
   dense::tree_solver tree;
-  dense::pairwise_solver pairwise;
+  dense::pair_solver pairwise;
   dense::buffer<std::int64_t> row;       ///< one agent's utilities
   dense::buffer<std::int64_t> most;      ///< what the agents from one on add at most, at the prices of the slots
   dense::buffer<dense::row_index> twin;  ///< see `dense::tree_options`

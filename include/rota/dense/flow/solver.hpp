@@ -3,6 +3,7 @@
 #include <rota/dense/flow/detail/canonical.hpp>
 #include <rota/dense/flow/detail/opening.hpp>
 #include <rota/dense/flow/detail/slot_graph.hpp>
+#include <rota/dense/outcome.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -14,26 +15,18 @@
 
 namespace rota::dense {
 
-/// How an additive search ended.
-enum class additive_end : unsigned char {
-  optimal,      ///< the assignment is the canonical optimum
-  interrupted,  ///< the limit was met: the assignment is within all bounds, and `bound` says how far from the optimum
+/// Why no assignment is valid.
+enum class flow_obstacle : unsigned char {
+  none,         ///< one is
   agent_stuck,  ///< `witness` is an agent: those that fit only into the slots it may reach are more than these bear
   slot_short    ///< `witness` is a slot: its lower bound cannot be filled together with the others'
 };
 
-/// What an additive search found, and its work.
-struct additive_outcome {
-  additive_end end{};
+/// What a flow search found. It always finds an assignment or proves that there is none, whatever the limit.
+struct flow_outcome : outcome {
+  flow_obstacle obstacle = flow_obstacle::none;
   std::size_t witness = 0;
-  std::int64_t utility = 0;         ///< of the assignment
-  std::int64_t bound = 0;           ///< no assignment is worth more
-  std::uint64_t searches = 0;       ///< shortest-path searches
-  std::uint64_t augmentations = 0;  ///< agents, or chains of agents, moved
-  std::uint64_t relaxations = 0;    ///< arcs looked at: the steps of `work_limit`
-  bool warm = false;                ///< began where the search before had ended
-
-  [[nodiscard]] bool found() const noexcept { return end <= additive_end::interrupted; }
+  bool warm = false;  ///< began where the search before had ended
 };
 
 /// Finds the assignment of greatest total utility, exactly and in polynomial time; buffers are reused between calls.
@@ -46,10 +39,10 @@ struct additive_outcome {
 ///
 /// Complexity: cold O(n·s) and E searches of O(s²), E at most n + the sum of the lower bounds and usually far less; warm
 /// O(s) a changed row and as many searches as there are changed rows at most. O(n + s²) memory.
-class additive_solver {
+class flow_solver {
 public:
   /// From nothing. @pre the preconditions of `instance`
-  additive_outcome solve(instance const& in, work_limit const& limit = {}) {
+  flow_outcome solve(instance const& in, work_limit const& limit = {}) {
     graph_.reset(in);
     return begin(in, limit);
   }
@@ -57,17 +50,17 @@ public:
   /// From the assignment of the last search, where utilities or taking part have changed in rows `changed` only; bounds
   /// may have changed anyhow. Cold where there is nothing to begin with.
   /// @pre `changed` names each row that has changed, once
-  additive_outcome resolve(instance const& in, std::span<row_index const> changed, work_limit const& limit = {}) {
+  flow_outcome resolve(instance const& in, std::span<row_index const> changed, work_limit const& limit = {}) {
+    flow_outcome out;
     if (warm_ && graph_.adopt(in) && replace(in, changed) && !tighten(in)) {
       graph_.open_places(agents_);
-      auto const out = finish(in, limit, true);
-      if (out.found()) return out;
+      out = finish(in, limit, true);
     }
-    return solve(in, limit);  // so that the witness of a refusal does not depend on history either
+    if (!out.found()) out = solve(in, limit);  // so that the witness of a refusal does not depend on history either
+    out.work.changed_rows = changed.size();
+    return out;
   }
 
-  /// The slot of each agent, `no_slot` for those who take no part. After an end that `found()` something.
-  [[nodiscard]] std::span<slot const> assignment() const noexcept { return graph_.who().homes(); }
   /// The price of each slot, and of the sink, which is 0.
   [[nodiscard]] std::span<std::int64_t const> prices() const noexcept { return std::as_const(graph_).prices(); }
   /// Lower and upper bound of slot k, with what the other slots cannot take or must have.
@@ -76,15 +69,15 @@ public:
 private:
   using value = slot_graph::value;
 
-  additive_outcome begin(instance const& in, work_limit const& limit) {
-    ROTA_ASSERT(in.utility.size() == in.agents * in.slot_count());
+  flow_outcome begin(instance const& in, work_limit const& limit) {
+    ROTA_ASSERT(in.utility.size() == in.agents * in.slots());
     ROTA_ASSERT(in.taking_part.empty() || in.taking_part.size() == in.agents);
     warm_ = false;
     agents_ = 0;
     for (std::size_t a = 0; a < in.agents; ++a) agents_ += in.takes_part(a);
     if (auto const out = tighten(in)) return *out;
-    if (in.slot_count() == 0) return {};
-    if (!opening_.play(graph_, agents_, limit)) return refused(additive_end::agent_stuck, opening_.homeless());
+    if (in.slots() == 0) return placed(status::optimal, 0, 0, false);
+    if (!opening_.play(graph_, agents_, limit)) return refused(flow_obstacle::agent_stuck, opening_.homeless());
     return finish(in, limit, false);
   }
 
@@ -102,32 +95,43 @@ private:
     return true;
   }
 
-  [[nodiscard]] additive_outcome refused(additive_end why, std::size_t witness) const {
-    additive_outcome out;
-    out.end = why;
+  [[nodiscard]] flow_outcome refused(flow_obstacle obstacle, std::size_t witness) const {
+    flow_outcome out;
+    out.status = status::infeasible;
+    out.bound = no_value;
+    out.obstacle = obstacle;
     out.witness = witness;
     return counted(out);
   }
-  [[nodiscard]] additive_outcome counted(additive_outcome out) const {
-    out.searches = graph_.done().searches;
-    out.augmentations = graph_.done().augmentations;
-    out.relaxations = graph_.done().relaxations;
+  [[nodiscard]] flow_outcome placed(status how, value worth, value bound, bool warm) const {
+    flow_outcome out;
+    out.status = how;
+    out.assignment = graph_.who().homes();
+    out.value = worth;
+    out.bound = bound;
+    out.warm = warm;
+    return counted(out);
+  }
+  [[nodiscard]] flow_outcome counted(flow_outcome out) const {
+    out.work.searches = graph_.done().searches;
+    out.work.augmentations = graph_.done().augmentations;
+    out.work.relaxations = graph_.done().relaxations;
     return out;
   }
 
   /// Bounds as the number of agents implies them: what other slots cannot take must come here, what they must have cannot.
-  std::optional<additive_outcome> tighten(instance const& in) {
+  std::optional<flow_outcome> tighten(instance const& in) {
     value least = 0;
     value most = 0;
     for (auto const b : in.bounds) least += b.lower, most += b.upper;
     auto const n = static_cast<value>(agents_);
-    if (n > most) return refused(additive_end::agent_stuck, first_taking_part(in));
-    for (std::size_t k = 0; k < in.slot_count(); ++k) {
+    if (n > most) return refused(flow_obstacle::agent_stuck, first_taking_part(in));
+    for (std::size_t k = 0; k < in.slots(); ++k) {
       auto const [lower, upper] = in.bounds[k];
       value const implied_upper = n - (least - value{lower});
-      if (lower > upper || value{lower} > implied_upper) return refused(additive_end::slot_short, k);
-      graph_.set_bounds(k, {static_cast<std::uint32_t>((std::max)(value{lower}, n - (most - value{upper}))),
-                            static_cast<std::uint32_t>((std::min)(value{upper}, implied_upper))});
+      if (lower > upper || value{lower} > implied_upper) return refused(flow_obstacle::slot_short, k);
+      graph_.set_bounds(k, {static_cast<std::uint32_t>(std::max(value{lower}, n - (most - value{upper}))),
+                            static_cast<std::uint32_t>(std::min(value{upper}, implied_upper))});
     }
     return std::nullopt;
   }
@@ -137,7 +141,7 @@ private:
     return a;
   }
 
-  additive_outcome finish(instance const& in, work_limit const& limit, bool warm) {
+  flow_outcome finish(instance const& in, work_limit const& limit, bool warm) {
     auto flow = graph_.balance(limit);
     bool const close = graph_.normalise();
     if (flow == slot_graph::flow::interrupted) return hurry(in);
@@ -155,14 +159,12 @@ private:
     warm_ = true;
     if (flow == slot_graph::flow::stuck) return explain();
     if (!in.unique) canonical_.make(graph_);
-    additive_outcome out;
-    out.warm = warm;
-    out.bound = out.utility = graph_.who().total();
-    return counted(out);
+    auto const total = graph_.who().total();
+    return placed(status::optimal, total, total, warm);
   }
 
   /// No time left to balance: anything within the bounds, and how much more the prices leave room for.
-  additive_outcome hurry(instance const& in) {
+  flow_outcome hurry(instance const& in) {
     warm_ = false;
     if (!graph_.fill_anyhow(agents_)) return explain();
     std::uint64_t gap = 0;
@@ -181,25 +183,21 @@ private:
     for (std::size_t k = 0; k < in.slot_count(); ++k)
       price[k] > 0 ? add(price[k], bounds(k).upper - graph_.who().count(k))
                    : add(-price[k], graph_.who().count(k) - bounds(k).lower);
-    additive_outcome out;
-    out.end = additive_end::interrupted;
-    out.utility = graph_.who().total();
-    auto const headroom =
-        static_cast<std::uint64_t>((std::numeric_limits<value>::max)() - std::max<value>(out.utility, 0));
-    out.bound = out.utility + static_cast<value>((std::min)(gap, headroom));
-    return counted(out);
+    auto const total = graph_.who().total();
+    auto const headroom = static_cast<std::uint64_t>(no_bound - std::max<value>(total, 0));
+    return placed(status::feasible, total, total + static_cast<value>(std::min(gap, headroom)), false);
   }
 
-  [[nodiscard]] additive_outcome explain() const {
+  [[nodiscard]] flow_outcome explain() const {
     auto const stuck = graph_.stuck_at();
     if (stuck == graph_.sink()) {
       std::size_t k = 0;
       while (graph_.room(k) <= 0) ++k;
-      return refused(additive_end::slot_short, k);
+      return refused(flow_obstacle::slot_short, k);
     }
     auto least = graph_.who().first(stuck);
-    for (auto a = least; a != membership::nobody; a = graph_.who().next(a)) least = (std::min)(least, a);
-    return refused(additive_end::agent_stuck, least);
+    for (auto a = least; a != membership::nobody; a = graph_.who().next(a)) least = std::min(least, a);
+    return refused(flow_obstacle::agent_stuck, least);
   }
 
   slot_graph graph_;

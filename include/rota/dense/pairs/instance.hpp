@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rota/dense/instance.hpp>
+#include <rota/dense/outcome.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -10,11 +11,11 @@ namespace rota::dense {
 
 /// The greatest Σ_i max|u_i| + Σ_{i<j} max|w_ij| over present entries that the pairwise solver accepts: 2^29 in units of
 /// 2^-20. Every sum of values and of penalties for what is forbidden then fits into 64 bits.
-inline constexpr std::int64_t max_pairwise_total = std::int64_t{1} << 49;
+inline constexpr std::int64_t max_pair_total = std::int64_t{1} << 49;
 
 /// The most agents and the most slots the pairwise solver accepts.
-inline constexpr std::size_t max_pairwise_agents = 64;
-inline constexpr std::size_t max_pairwise_slots = 32;
+inline constexpr std::size_t max_pair_agents = 64;
+inline constexpr std::size_t max_pair_slots = 32;
 
 /// What two agents are worth together, by the slots they take: table[x_first · slots + x_second].
 ///
@@ -29,8 +30,8 @@ struct coupling {
 ///
 /// Pairs without a coupling are worth 0. With m slots it is a quadratic semi-assignment problem with cardinalities.
 /// @pre unary.size() == agents·slots(), row per agent, `absent` where forbidden; each table has slots()² entries;
-/// first ≠ second, both < agents; `max_pairwise_agents`, `max_pairwise_slots` and `max_pairwise_total` hold
-struct pairwise_instance {
+/// first ≠ second, both < agents; `max_pair_agents`, `max_pair_slots` and `max_pair_total` hold
+struct pair_instance {
   std::size_t agents = 0;
   std::span<std::int64_t const> unary;
   std::span<coupling const> couplings;
@@ -43,7 +44,7 @@ struct pairwise_instance {
 ///
 /// Σ_d m^(n−d)·(sum of the fields at d) = m^n: the account of a search adds up to all assignments, so nothing was
 /// forgotten. `open` is what a spent budget left.
-struct pairwise_tally {
+struct pair_tally {
   std::uint64_t leaves = 0;          ///< complete assignments evaluated; at d = n only
   std::uint64_t by_bound = 0;        ///< nothing below can be better than the best
   std::uint64_t by_cardinality = 0;  ///< nothing below is within the bounds of the slots
@@ -53,7 +54,7 @@ struct pairwise_tally {
 };
 
 /// How a pairwise search divides its work.
-struct pairwise_effort {
+struct pair_effort {
   static constexpr std::size_t automatic = ~std::size_t{0};
   /// With at most eight agents and slots, the bounds that take time to make wait for so many placements with plain ones.
   std::uint64_t plain_nodes = 16384;
@@ -65,26 +66,30 @@ struct pairwise_effort {
   bool symmetry = true;
 };
 
-/// What a pairwise search found.
-struct pairwise_outcome {
-  bool found = false;           ///< `assignment()` is the best valid one seen
-  bool complete = false;        ///< it is the canonical optimum; or, nothing being found, there is none
-  std::int64_t value = 0;       ///< of the best
-  std::int64_t bound = 0;       ///< no valid assignment is worth more; value == bound iff proved optimal
-  std::uint64_t nodes = 0;      ///< placements tried, those for bounds and for ties included
-  std::uint64_t tie_nodes = 0;  ///< of these, the ones that settled ties after the optimum was proved
+/// What a pairwise search found. Its nodes are placements tried, those for bounds and for ties included.
+struct pair_outcome : outcome {
+  std::uint64_t tie_nodes = 0;  ///< of the nodes, those that settled ties after the optimum was proved
 };
 
 /// Why a subtree was not searched.
-enum class pairwise_cut : unsigned char { bound, cardinality, absence, symmetry };
+enum class pair_cut : unsigned char { bound, cardinality, absence, symmetry };
 
-/// Hears of no cut. An observer is called as observer(partial, cut, bound): agent → slot, `no_slot` where not yet placed;
-/// for `pairwise_cut::bound`, no valid completion is worth more than `bound`.
+/// Hears of every subtree that was not searched.
+class pair_observer {
+public:
+  /// `partial`: agent → slot, `no_slot` where not yet placed. For `pair_cut::bound`, no valid completion is worth more than
+  /// `bound`.
+  virtual void operator()(std::span<slot const> partial, pair_cut why, std::int64_t bound) = 0;
+
+protected:
+  ~pair_observer() = default;
+};
+
+namespace detail {
+
+/// Hears of nothing, and costs nothing.
 struct no_observer {};
 
-/// Never stops.
-struct never_stop {
-  constexpr bool operator()() const noexcept { return false; }
-};
+}  // namespace detail
 
 }  // namespace rota::dense

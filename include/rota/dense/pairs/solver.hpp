@@ -26,110 +26,114 @@ namespace rota::dense {
 ///
 /// How: what has at most eight agents and slots, and mostly ends soon, has a plain search with plain bounds
 /// (`plain_search`). Otherwise an assignment is improved by local search (`local_search`); the tables are reparametrised
-/// and rounded up to 16 bits, an agent per lane (`pairwise_model`); the last half of the agents, those coupled least, are
+/// and rounded up to 16 bits, an agent per lane (`pair_model`); the last half of the agents, those coupled least, are
 /// solved for all counts of agents per slot at once (`suffix_bounds`); and depth-first branch and bound
-/// (`pairwise_search`) adds to these what the unplaced get from the placed at best, slots having prices
+/// (`pair_branch`) adds to these what the unplaced get from the placed at best, slots having prices
 /// (`price_table`). Ties are settled only where bounds do not exclude them.
 ///
 /// Memory O(n²·m²), at most 45 MB (1 MB for n ≤ 20, m ≤ 8), and bounds by counts in tables of fixed size, at most 75 MB.
 /// Recursion at most n + m deep.
-class pairwise_solver {
+class pair_solver {
 public:
   /// How the work is divided. It changes no answer that is complete.
-  pairwise_effort effort;
+  pair_effort effort;
 
-  /// Searches until the canonical optimum is proved, about `budget` nodes have been tried, or stop() says so, which is
-  /// asked every few hundred nodes, those of the plain search aside, and now and then before there are any. See
-  /// `no_observer` for what an observer hears.
+  /// Searches until the canonical optimum is proved, about `limit.steps` nodes have been tried, or `limit.stop` says so,
+  /// which is asked every few hundred nodes, those of the plain search aside, and now and then before there are any.
   ///
-  /// @return found = false and complete = true iff no assignment is valid
-  /// @pre the preconditions of `pairwise_instance`
-  template <class Stop = never_stop, class Observer = no_observer>
-  pairwise_outcome solve(pairwise_instance const& in,
-                         std::uint64_t budget = (std::numeric_limits<std::uint64_t>::max)(), Stop stop = {},
-                         Observer observer = {}) {
-    ROTA_ASSERT(in.agents <= max_pairwise_agents && in.slot_count() <= max_pairwise_slots);
-    pairwise_outcome out;
+  /// @pre the preconditions of `pair_instance`
+  pair_outcome solve(pair_instance const& in, work_limit const& limit = {}, pair_observer* observer = nullptr) {
+    detail::no_observer nobody;
+    pair_outcome out = observer ? run(in, limit, *observer) : run(in, limit, nobody);
+    if (out.found()) out.assignment = best_.assignment;
+    for (auto const& t : tallies_) {
+      out.work.leaves += t.leaves;
+      out.work.pruned += t.by_bound + t.by_cardinality + t.by_absence + t.by_symmetry;
+    }
+    return out;
+  }
+
+  /// What became of all assignments, by the number of agents placed. Ties are settled afterwards, and do not count.
+  [[nodiscard]] std::span<pair_tally const> account() const noexcept { return tallies_; }
+
+private:
+  template <class Observer>
+  pair_outcome run(pair_instance const& in, work_limit const& limit, Observer& observer) {
+    auto budget = limit.steps;
+    stop_request const& stop = limit.stop;
+    ROTA_ASSERT(in.agents <= max_pair_agents && in.slots() <= max_pair_slots);
+    pair_outcome out;
     std::size_t const n = in.agents;
-    best_ = {false, detail::pairwise_model::nothing, std::move(best_.assignment)};
+    best_ = {false, detail::pair_model::nothing, std::move(best_.assignment)};
     best_.assignment.assign(n, no_slot);
     tallies_.assign(n + 1, {});
-    if (n == 0 || in.slot_count() == 0) return nothing_to_choose(in);
-    if (detail::plain_search::suits(n, in.slot_count())) {
-      auto const plainly = (std::min)(effort.plain_nodes, budget / 2);
-      no_observer nobody;
-      auto const found = small_.solve(in, plainly, best_.assignment, out.value, tallies_, nobody);
-      out.nodes = small_.nodes();
+    if (n == 0 || in.slots() == 0) return nothing_to_choose(in);
+    if (detail::plain_search::suits(n, in.slots())) {
+      auto const plainly = std::min(effort.plain_nodes, budget / 2);
+      detail::no_observer nobody;
+      std::int64_t value = 0;
+      auto const found = small_.solve(in, plainly, best_.assignment, value, tallies_, nobody);
+      out.work.nodes = small_.nodes();
       if (found) {
         if constexpr (!std::is_same_v<Observer,
-                                      no_observer>) {  // once more, to be heard: of what is given up it is not
+                                      detail::no_observer>) {  // once more, to be heard: of what is given up it is not
           tallies_.assign(n + 1, {});
-          (void)small_.solve(in, plainly, best_.assignment, out.value, tallies_, observer);
+          (void)small_.solve(in, plainly, best_.assignment, value, tallies_, observer);
         }
-        out.found = *found;
-        return complete(out, out.value);
+        return proved(out, *found, value);
       }
-      budget -= out.nodes;
+      budget -= out.work.nodes;
       best_.assignment.assign(n, no_slot);
       tallies_.assign(n + 1, {});
     }
     if (!start(in, budget, stop)) {
       ++tallies_[0].by_cardinality;
-      if constexpr (!std::is_same_v<Observer, no_observer>)
-        observer(std::span<slot const>(best_.assignment), pairwise_cut::cardinality, detail::pairwise_model::nothing);
-      return complete(out, 0);
+      if constexpr (!std::is_same_v<Observer, detail::no_observer>)
+        observer(std::span<slot const>(best_.assignment), pair_cut::cardinality, detail::pair_model::nothing);
+      return proved(out, false, 0);
     }
     bound_suffixes(budget, stop);
     search_.prepare(model_, suffix_, prices_, lower_, upper_);
     std::uint64_t const spent = suffix_.work();
-    std::uint64_t const left = budget - (std::min)(budget, spent);
-    bool const proved = search_.run(best_, left, stop, observer);
+    std::uint64_t const left = budget - std::min(budget, spent);
+    bool const exhausted = search_.run(best_, left, stop, observer);
     tallies_.assign(search_.account().begin(), search_.account().end());
     std::uint64_t const nodes = search_.nodes();
-    bool settled = proved;
-    if (proved && best_.found && search_.tied()) settled = search_.settle(best_, left, stop);
-    out.nodes += spent + search_.nodes();
+    bool settled = exhausted;
+    if (exhausted && best_.found && search_.tied()) settled = search_.settle(best_, left, stop);
+    out.work.nodes += spent + search_.nodes();
     out.tie_nodes = search_.nodes() - nodes;
-    out.found = best_.found;
-    if (proved) {
-      complete(out, best_.value);
-      out.complete = settled;
+    if (exhausted) {
+      proved(out, best_.found, best_.value);
+      if (!settled) out.status = status::feasible;  // the optimum, yet not the canonical one
       return out;
     }
-    out.value = out.found ? best_.value : 0;
-    out.bound = (std::max)(best_.value, search_.open_bound());
-    if (!out.found) best_.assignment.assign(n, no_slot);
+    out.status = best_.found ? status::feasible : status::unknown;
+    out.value = best_.found ? best_.value : 0;
+    out.bound = std::max(best_.value, search_.open_bound());
     return out;
   }
 
-  /// The slot of each agent; `no_slot` if nothing was found.
-  [[nodiscard]] std::span<slot const> assignment() const noexcept { return best_.assignment; }
-  /// What became of all assignments, by the number of agents placed. Ties are settled afterwards, and do not count.
-  [[nodiscard]] std::span<pairwise_tally const> account() const noexcept { return tallies_; }
-
-private:
-  pairwise_outcome complete(pairwise_outcome& out, std::int64_t value) {
-    out.complete = true;
-    out.value = out.found ? value : 0;
-    out.bound = out.found ? value : absent;
-    if (!out.found) std::fill(best_.assignment.begin(), best_.assignment.end(), no_slot);
+  static pair_outcome& proved(pair_outcome& out, bool found, std::int64_t value) {
+    out.status = found ? status::optimal : status::infeasible;
+    out.value = found ? value : 0;
+    out.bound = found ? value : no_value;
     return out;
   }
 
-  pairwise_outcome nothing_to_choose(pairwise_instance const& in) {
-    pairwise_outcome out;
-    out.found =
+  pair_outcome nothing_to_choose(pair_instance const& in) {
+    pair_outcome out;
+    bool const found =
         in.agents == 0 && std::all_of(in.bounds.begin(), in.bounds.end(), [](slot_bounds b) { return b.lower == 0; });
-    if (out.found)
+    if (found)
       ++tallies_[0].leaves;
     else if (in.agents == 0)
       ++tallies_[0].by_cardinality;
-    return complete(out, 0);
+    return proved(out, found, 0);
   }
 
   /// A first assignment, made better. @return false if the bounds of the slots cannot be met
-  template <class Stop>
-  bool start(pairwise_instance const& in, std::uint64_t budget, Stop& stop) {
+  bool start(pair_instance const& in, std::uint64_t budget, stop_request const& stop) {
     std::size_t const n = in.agents;
     lower_.resize(in.slot_count());
     upper_.resize(in.slot_count());
@@ -140,12 +144,13 @@ private:
     model_.prepare(in, effort.symmetry);
     instance alone{n, model_.centred(), in.bounds};
     alone.unique = true;  // any optimum is a start as good
-    if (additive_.solve(alone).end != additive_end::optimal) return false;
-    std::copy(additive_.assignment().begin(), additive_.assignment().end(), best_.assignment.begin());
+    auto const flow = alone_.solve(alone);
+    if (!flow.found()) return false;
+    std::copy(flow.assignment.begin(), flow.assignment.end(), best_.assignment.begin());
     std::size_t const rounds = static_cast<std::size_t>(std::min<std::uint64_t>(n, budget / n));
     best_.value = local_.improve(model_, in.bounds, best_.assignment, rounds, stop);
-    best_.found = best_.value > detail::pairwise_model::nothing;
-    if (!best_.found) best_.value = detail::pairwise_model::nothing;
+    best_.found = best_.value > detail::pair_model::nothing;
+    if (!best_.found) best_.value = detail::pair_model::nothing;
     sort_twins();
     return true;
   }
@@ -159,13 +164,12 @@ private:
           std::swap(best_.assignment[a], best_.assignment[b]);
   }
 
-  template <class Stop>
-  void bound_suffixes(std::uint64_t budget, Stop& stop) {
+  void bound_suffixes(std::uint64_t budget, stop_request const& stop) {
     using detail::price_table;
     std::size_t const n = model_.agents();
     auto plan = detail::suffix_plan::fitting(n, upper_.size(), budget / 4);
-    if (effort.exact_suffix != pairwise_effort::automatic) plan.exact = effort.exact_suffix;
-    if (effort.bounded_suffix != pairwise_effort::automatic) plan.beyond = effort.bounded_suffix;
+    if (effort.exact_suffix != pair_effort::automatic) plan.exact = effort.exact_suffix;
+    if (effort.bounded_suffix != pair_effort::automatic) plan.beyond = effort.bounded_suffix;
     if (upper_.size() > price_table::most_slots || !detail::count_space::fits(upper_.size(), n) ||
         price_table::number_of_finals(lower_, upper_, n) > price_table::most_finals(n))
       plan = {};
@@ -173,17 +177,17 @@ private:
     if (suffix_.counted(n)) prices_.prepare(model_, suffix_, lower_, upper_);
   }
 
-  detail::pairwise_best best_;
-  buffer<pairwise_tally> tallies_;
+  detail::pair_best best_;
+  buffer<pair_tally> tallies_;
   buffer<std::uint32_t> lower_;
   buffer<std::uint32_t> upper_;
   detail::plain_search small_;
-  detail::pairwise_model model_;
-  additive_solver additive_;
+  detail::pair_model model_;
+  flow_solver alone_;
   detail::local_search local_;
   detail::suffix_bounds suffix_;
   detail::price_table prices_;
-  detail::pairwise_search search_;
+  detail::pair_branch search_;
 };
 
 }  // namespace rota::dense

@@ -2,7 +2,7 @@
 
 #include <rota/dense/buffer.hpp>
 #include <rota/dense/instance.hpp>
-#include <rota/search/limits.hpp>
+#include <rota/dense/outcome.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -12,9 +12,6 @@
 #include <span>
 
 namespace rota::dense {
-
-/// A bound that bounds nothing.
-inline constexpr std::int64_t no_bound = (std::numeric_limits<std::int64_t>::max)();
 
 /// What a tree search asks about assignments.
 class tree_oracle {
@@ -53,7 +50,8 @@ struct tree_account {
 
 /// A bound that was less than the value of an assignment below it.
 struct refuted_bound {
-  std::size_t depth = 0;  ///< the prefix is the first `depth` agents of the assignment
+  std::span<slot const> assignment{};  ///< that assignment; it belongs to the solver, as that of an outcome
+  std::size_t depth = 0;               ///< the prefix is the first `depth` agents of the assignment
   std::int64_t bound = 0;
   std::int64_t value = 0;
 };
@@ -69,13 +67,9 @@ struct tree_options {
 };
 
 /// What a tree search found.
-struct tree_outcome {
-  bool found = false;             ///< `assignment()` is the best admissible one known
-  bool complete = false;          ///< nothing was cut off by the limit: the best, or proof that there is none
-  std::int64_t value = 0;         ///< of the best
-  std::int64_t bound = no_bound;  ///< no admissible assignment is worth more; = value if complete
+struct tree_outcome : outcome {
   tree_account account;
-  std::optional<refuted_bound> lie{};  ///< then neither `complete` nor `bound` can be relied on
+  std::optional<refuted_bound> lie{};  ///< then nothing is proved: neither `status` nor `bound` can be relied on
 };
 
 /// Depth-first branch and bound over agents in order, slots in order; iterative, O(n·s) memory.
@@ -90,10 +84,9 @@ public:
   tree_outcome solve(instance const& in, tree_oracle& oracle, tree_options const& options = {}) {
     prepare(in);
     tree_outcome out;
-    out.complete = true;
-    known_ = !options.known.empty();
+    found_ = known_ = !options.known.empty();
+    bool complete = true;
     if (known_) {
-      out.found = true;
       out.value = options.known_value;
       std::copy(options.known.begin(), options.known.end(), best_.begin());
     }
@@ -103,16 +96,18 @@ public:
     } else if (in.agents == 0) {
       consider_leaf(oracle, 0, out);
     } else {
-      descend(in, oracle, options, out);
+      complete = descend(in, oracle, options, out);
     }
-    if (out.complete) out.bound = out.found ? out.value : (std::numeric_limits<std::int64_t>::min)();
+    out.status =
+        found_ ? (complete ? status::optimal : status::feasible) : (complete ? status::infeasible : status::unknown);
+    if (complete) out.bound = found_ ? out.value : no_value;
+    if (found_) out.assignment = best_;
+    if (out.lie) out.lie->assignment = refuter_;
+    out.work.nodes = out.account.nodes;
+    out.work.leaves = out.account.leaves;
+    out.work.pruned = out.account.pairs + out.account.bounded + out.account.hopeless + out.account.mirrored;
     return out;
   }
-
-  /// The best assignment of the last search.
-  [[nodiscard]] std::span<slot const> assignment() const noexcept { return best_; }
-  /// The assignment that `tree_outcome::lie` speaks of.
-  [[nodiscard]] std::span<slot const> refuter() const noexcept { return refuter_; }
 
 private:
   void prepare(instance const& in) {
@@ -134,23 +129,23 @@ private:
     }
   }
 
-  void descend(instance const& in, tree_oracle& oracle, tree_options const& options, tree_outcome& out) {
+  /// @return false if the limit was met
+  bool descend(instance const& in, tree_oracle& oracle, tree_options const& options, tree_outcome& out) {
     auto const& limit = options.limit;
     for (std::size_t depth = 0;;) {
       std::size_t k = next_[depth];
       while (k < slots_ && !open(in, options.twin, depth, k, out)) ++k;
       if (k == slots_) {
-        if (depth == 0) return;
+        if (depth == 0) return true;
         undo(--depth);
         continue;
       }
       next_[depth] = static_cast<slot>(k + 1);
       auto const nodes = out.account.nodes;
       if (nodes >= limit.steps || (nodes % 1024 == 0 && limit.stop())) {
-        out.complete = false;
         next_[depth] = static_cast<slot>(k);
         out.bound = frontier(depth, out);
-        return;
+        return false;
       }
       ++out.account.nodes;
       place(depth, k);
@@ -160,12 +155,12 @@ private:
         leave(out.account.pairs, depth + 1, out);
       } else if (depth + 1 == in.agents) {
         consider_leaf(oracle, sum, out);
-        if (out.found && !known_ && out.value >= options.enough) return;
+        if (found_ && !known_ && out.value >= options.enough) return true;
       } else if (oracle.hopeless(prefix)) {
         leave(out.account.hopeless, depth + 1, out);
       } else {
-        bound_[depth + 1] = (std::min)(bound_[depth], oracle.bound(prefix, sum));
-        if (out.found && (known_ ? bound_[depth + 1] < out.value : bound_[depth + 1] <= out.value)) {
+        bound_[depth + 1] = std::min(bound_[depth], oracle.bound(prefix, sum));
+        if (found_ && (known_ ? bound_[depth + 1] < out.value : bound_[depth + 1] <= out.value)) {
           leave(out.account.bounded, depth + 1, out);
           if (known_ && std::equal(prefix.begin(), prefix.end(), best_.begin()))
             compare(best_, out.value, depth + 1, out);
@@ -210,7 +205,7 @@ private:
   }
   /// What may still lie in the subtrees that were not entered.
   [[nodiscard]] std::int64_t frontier(std::size_t depth, tree_outcome const& out) const {
-    std::int64_t most = out.found ? out.value : (std::numeric_limits<std::int64_t>::min)();
+    std::int64_t most = found_ ? out.value : no_value;
     for (std::size_t d = 0; d <= depth; ++d)
       if (next_[d] < slots_) most = (std::max)(most, bound_[d]);
     return most;
@@ -241,12 +236,12 @@ private:
     ++out.account.leaves;
     cover(assignment_.size(), out);
     auto const worthless = known_ ? out.value - 1 : out.value;
-    auto const value = oracle.leaf(assignment_, sum, out.found ? std::optional{worthless} : std::nullopt);
+    auto const value = oracle.leaf(assignment_, sum, found_ ? std::optional{worthless} : std::nullopt);
     if (!value) return;
     compare(assignment_, *value, assignment_.empty() ? 0 : assignment_.size() - 1, out);
-    if (out.found && *value <= worthless) return;
+    if (found_ && *value <= worthless) return;
     known_ = false;
-    out.found = true;
+    found_ = true;
     out.value = *value;
     std::copy(assignment_.begin(), assignment_.end(), best_.begin());
   }
@@ -256,7 +251,7 @@ private:
     if (value <= bound_[depth] || out.lie) return;
     depth = 0;
     while (bound_[depth] >= value) ++depth;
-    out.lie = refuted_bound{depth, bound_[depth], value};
+    out.lie = refuted_bound{{}, depth, bound_[depth], value};
     std::copy(assignment.begin(), assignment.end(), refuter_.begin());
   }
 
@@ -283,6 +278,7 @@ private:
   }
 
   std::size_t slots_ = 0;
+  bool found_ = false;  // `best_` holds an admissible assignment
   bool known_ = false;  // the best so far was given, and an equal one may still come first in order
   buffer<slot> assignment_;
   buffer<slot> best_;

@@ -5,7 +5,7 @@
 #include <rota/dense/flow/detail/ledgers.hpp>
 #include <rota/dense/flow/detail/membership.hpp>
 #include <rota/dense/instance.hpp>
-#include <rota/search/limits.hpp>
+#include <rota/dense/limits.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -17,9 +17,9 @@
 namespace rota::dense::detail {
 
 /// The best assignment that a search has seen, by the caller's numbers.
-struct pairwise_best {
+struct pair_best {
   bool found = false;
-  std::int64_t value = pairwise_model::nothing;
+  std::int64_t value = pair_model::nothing;
   buffer<slot> assignment;
 };
 
@@ -29,9 +29,9 @@ struct pairwise_best {
 /// into no final counts, when it contains something forbidden, or when an interchangeable agent before it took a later
 /// slot. Twice: by the bounds of the node, which are known for all slots at once, then by its own.
 /// Class invariant: cut, open and evaluated assignments add up to all. O(n·m·stride) memory.
-class pairwise_search {
+class pair_branch {
 public:
-  void prepare(pairwise_model const& model, suffix_bounds const& suffix, price_table& prices,
+  void prepare(pair_model const& model, suffix_bounds const& suffix, price_table& prices,
                std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper) {
     model_ = &model;
     suffix_ = &suffix;
@@ -61,13 +61,13 @@ public:
     nodes_ = 0;
     tries_ = 0;
     tied_ = false;
-    bound_ = pairwise_model::nothing;
+    bound_ = pair_model::nothing;
     credit_.assign(agents_ + 1, first_credit);
   }
 
   /// Improves on the best until it is proved to be the best, or the budget is spent. @return whether it is proved
-  template <class Stop, class Observer>
-  bool run(pairwise_best& best, std::uint64_t budget, Stop& stop, Observer& observer) {
+  template <class Observer>
+  bool run(pair_best& best, std::uint64_t budget, stop_request const& stop, Observer& observer) {
     settling_ = false;
     aim(best, best.value);
     return descend(best, budget, stop, observer) == end::exhausted;
@@ -78,8 +78,7 @@ public:
   /// Agent by agent in the caller's order: is there an equal one with a smaller slot here and the same slots before?
   /// The searches are over disjoint parts, so that all together cost about one proof. The account stays as it is.
   /// @pre `run` has proved the best
-  template <class Stop>
-  bool settle(pairwise_best& best, std::uint64_t budget, Stop& stop) {
+  bool settle(pair_best& best, std::uint64_t budget, stop_request const& stop) {
     no_observer nobody;
     settling_ = true;
     saved_ = tallies_;
@@ -107,7 +106,7 @@ public:
   [[nodiscard]] std::uint64_t nodes() const { return nodes_; }
   /// If `run` was stopped: no assignment that is still open is worth more.
   [[nodiscard]] std::int64_t open_bound() const { return bound_; }
-  [[nodiscard]] std::span<pairwise_tally const> account() const { return tallies_; }
+  [[nodiscard]] std::span<pair_tally const> account() const { return tallies_; }
 
 private:
   enum class end { exhausted, stopped, found };
@@ -152,7 +151,7 @@ private:
   }
 
   /// From now on, what allows no value above `value` is cut.
-  void aim(pairwise_best const& best, std::int64_t value) {
+  void aim(pair_best const& best, std::int64_t value) {
     enough_ = model_->quanta(value);
     // Only a cut that allows exactly this much can hide an equal of the best.
     par_ = best.found && model_->exact(enough_) == best.value ? enough_ : cut_off;
@@ -177,8 +176,8 @@ private:
     }
   }
 
-  template <class Stop, class Observer>
-  end descend(pairwise_best& best, std::uint64_t budget, Stop& stop, Observer& observer) {
+  template <class Observer>
+  end descend(pair_best& best, std::uint64_t budget, stop_request const& stop, Observer& observer) {
     std::size_t const last = agents_ - 1;
     bool const counted = suffix_->counted(agents_);
     std::uint64_t poll = nodes_ + poll_every;
@@ -236,7 +235,7 @@ private:
   }
 
   /// A complete assignment. @return whether that is all that was asked for
-  bool evaluate(pairwise_best& best) {
+  bool evaluate(pair_best& best) {
     for (std::size_t r = 0; r < agents_; ++r) partial_[model_->agent_at(r)] = at_[r];
     std::int64_t const value = model_->value(partial_);
     if (settling_) {
@@ -261,11 +260,11 @@ private:
   template <class Observer>
   void grow(std::size_t d, child const& self, Observer& observer) {
     std::size_t const e = d + 1;
-    pairwise_model const& model = *model_;
+    pair_model const& model = *model_;
     frame& f = frames_[d];
     child* const list = &children_[d * slots_];
     f.next = f.last = list;
-    pairwise_tally& tally = tallies_[e];
+    pair_tally& tally = tallies_[e];
     lane_node const node = node_at(d);
     lane const* const field = node.fields + model.lane_of(d);
     std::int32_t others = (std::numeric_limits<std::int32_t>::max)() / 2;
@@ -320,23 +319,23 @@ private:
   /// The slots that the next agent could take, as far as counts, presence and symmetry go.
   template <class Observer>
   std::uint64_t candidates(std::size_t d, frame const& f, Observer& observer) {
-    pairwise_tally& tally = tallies_[d + 1];
-    std::uint64_t slot_set = f.missing >= agents_ - d ? f.open & f.wanting : f.open;
+    pair_tally& tally = tallies_[d + 1];
+    std::uint64_t slots = f.missing >= agents_ - d ? f.open & f.wanting : f.open;
     std::uint64_t const all = all_slots();
-    if (slot_set != all) {
-      tally.by_cardinality += number_of(all & ~slot_set);
-      cut_all(observer, d, all & ~slot_set, pairwise_cut::cardinality);
+    if (slots != all) {
+      tally.by_cardinality += number_of(all & ~slots);
+      cut_all(observer, d, all & ~slots, pair_cut::cardinality);
     }
     if (std::uint64_t const out = slot_set & ~present_[d]; out != 0) {
       tally.by_absence += number_of(out);
-      cut_all(observer, d, out, pairwise_cut::absence);
-      slot_set &= present_[d];
+      cut_all(observer, d, out, pair_cut::absence);
+      slots &= present_[d];
     }
     if (std::uint32_t const twin = model_->twin_before(d); twin != no_slot) {
       std::uint64_t const earlier = slot_set & ((std::uint64_t{1} << at_[twin]) - 1);
       tally.by_symmetry += number_of(earlier);
-      cut_all(observer, d, earlier, pairwise_cut::symmetry);
-      slot_set &= ~earlier;
+      cut_all(observer, d, earlier, pair_cut::symmetry);
+      slots &= ~earlier;
     }
     return slot_set;
   }
@@ -373,8 +372,8 @@ private:
   template <class Observer>
   std::size_t prepare_job(std::size_t d, frame const& f, child* list, std::size_t count, Observer& observer) {
     std::size_t const e = d + 1;
-    pairwise_model const& model = *model_;
-    pairwise_tally& tally = tallies_[e];
+    pair_model const& model = *model_;
+    pair_tally& tally = tallies_[e];
     bool const counted = suffix_->counted(e);
     lane const* const field = &fields_[d * row_] + model.lane_of(d);
     std::size_t ready = 0;
@@ -384,7 +383,7 @@ private:
       c.at = list[i].at;
       if (model.dead(field[c.at * model.stride()])) {
         ++tally.by_absence;
-        cut_all(observer, d, std::uint64_t{1} << c.at, pairwise_cut::absence);
+        cut_all(observer, d, std::uint64_t{1} << c.at, pair_cut::absence);
         continue;
       }
       lane* const prices = &child_prices_[ready * price_stride_];
@@ -392,7 +391,7 @@ private:
         price_table::state const& s = prices_->at(e, f.counts + suffix_->space().unit(c.at));
         if (s.most == price_table::impossible) {
           ++tally.by_cardinality;
-          cut_all(observer, d, std::uint64_t{1} << c.at, pairwise_cut::cardinality);
+          cut_all(observer, d, std::uint64_t{1} << c.at, pair_cut::cardinality);
           continue;
         }
         c.allowed = s.most;
@@ -401,7 +400,7 @@ private:
       } else {
         c.allowed = suffix_->flat(e);
         for (std::size_t y = 0; y < slots_; ++y)
-          prices[y] = count_[y] + (c.at == y ? 1 : 0) == upper_[y] ? pairwise_model::most_price - 1 : 0;
+          prices[y] = count_[y] + (c.at == y ? 1 : 0) == upper_[y] ? pair_model::most_price - 1 : 0;
       }
       job_[ready++] = {model.table(d, c.at), prices};
     }
@@ -428,13 +427,13 @@ private:
   template <class Observer>
   void cut(Observer& observer, std::size_t d, slot x, std::int32_t allowed) {
     if constexpr (!std::is_same_v<Observer, no_observer>)
-      observer(placed(d, x), pairwise_cut::bound, model_->exact(allowed));
+      observer(placed(d, x), pair_cut::bound, model_->exact(allowed));
   }
   template <class Observer>
-  void cut_all(Observer& observer, std::size_t d, std::uint64_t slot_set, pairwise_cut why) {
+  void cut_all(Observer& observer, std::size_t d, std::uint64_t slots, pair_cut why) {
     if constexpr (!std::is_same_v<Observer, no_observer>)
-      for (; slot_set != 0; slot_set &= slot_set - 1)
-        observer(placed(d, static_cast<slot>(std::countr_zero(slot_set))), why, pairwise_model::nothing);
+      for (; slots != 0; slots &= slots - 1)
+        observer(placed(d, static_cast<slot>(std::countr_zero(slots))), why, pair_model::nothing);
   }
   std::span<slot const> placed(std::size_t d, slot x) {
     std::fill(partial_.begin(), partial_.end(), no_slot);
@@ -454,13 +453,13 @@ private:
   bool settling_ = false;
   bool tied_ = false;
   std::int64_t bound_ = 0;
-  pairwise_model const* model_ = nullptr;
+  pair_model const* model_ = nullptr;
   suffix_bounds const* suffix_ = nullptr;
   price_table* prices_ = nullptr;
   lane_kernel kernel_ = nullptr;
   std::span<std::uint32_t const> lower_;
   std::span<std::uint32_t const> upper_;
-  std::array<std::int32_t, max_pairwise_slots> most_by_{};
+  std::array<std::int32_t, max_pair_slots> most_by_{};
   buffer<std::int32_t> credit_;    // [depth]
   buffer<std::uint64_t> allowed_;  // [rank]: slots, as bits
   buffer<std::uint64_t> present_;  // [rank]: of these, the ones there are
@@ -475,8 +474,8 @@ private:
   buffer<lane> child_prices_;
   buffer<lane_child> job_;
   buffer<std::int32_t> sums_;
-  buffer<pairwise_tally> tallies_;  // [depth]
-  buffer<pairwise_tally> saved_;
+  buffer<pair_tally> tallies_;  // [depth]
+  buffer<pair_tally> saved_;
 };
 
 }  // namespace rota::dense::detail

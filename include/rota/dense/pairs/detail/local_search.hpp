@@ -17,9 +17,8 @@ namespace rota::dense::detail {
 class local_search {
 public:
   /// Improves an assignment within the bounds; once, if stop() says so. @return its exact value
-  template <class Stop>
-  std::int64_t improve(pairwise_model const& model, std::span<slot_bounds const> bounds, std::span<slot> best,
-                       std::size_t rounds, Stop& stop) {
+  std::int64_t improve(pair_model const& model, std::span<slot_bounds const> bounds, std::span<slot> best,
+                       std::size_t rounds, stop_request const& stop) {
     agents_ = model.agents();
     slots_ = model.slot_count();
     gain_.resize(agents_ * slots_);
@@ -49,7 +48,7 @@ private:
   }
 
   /// gain_[a, x] ← what a is worth in x, the others staying where they are.
-  void start(pairwise_model const& model, std::span<slot const> from) {
+  void start(pair_model const& model, std::span<slot const> from) {
     std::copy(from.begin(), from.end(), at_.begin());
     std::fill(count_.begin(), count_.end(), 0);
     for (std::size_t a = 0; a < agents_; ++a)
@@ -61,7 +60,7 @@ private:
     }
   }
 
-  void move(pairwise_model const& model, std::size_t a, std::size_t x) {
+  void move(pair_model const& model, std::size_t a, std::size_t x) {
     std::int64_t const* const without = model.pairs(a, at_[a]);
     std::int64_t const* const with = model.pairs(a, x);
     for (std::size_t i = 0; i < gain_.size(); ++i) gain_[i] += with[i] - without[i];
@@ -74,7 +73,7 @@ private:
     return x != at_[a] && count_[x] < bounds[x].upper && count_[at_[a]] > bounds[at_[a]].lower;
   }
 
-  void disturb(pairwise_model const& model, std::span<slot_bounds const> bounds, std::uint64_t& random) {
+  void disturb(pair_model const& model, std::span<slot_bounds const> bounds, std::uint64_t& random) {
     std::size_t const moves = 2 + draw(random, agents_ / 3 + 1);
     for (std::size_t i = 0; i < moves; ++i) {
       std::size_t const a = draw(random, agents_);
@@ -91,7 +90,7 @@ private:
     }
   }
 
-  void descend(pairwise_model const& model, std::span<slot_bounds const> bounds) {
+  void descend(pair_model const& model, std::span<slot_bounds const> bounds) {
     for (;;) {
       std::int64_t most = 0;
       std::size_t agent = agents_;

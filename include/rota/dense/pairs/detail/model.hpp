@@ -20,16 +20,16 @@ namespace rota::dense::detail {
 /// value ≤ offset + 2^shift·(Σ field_i(x_i) + Σ v_ij(x_i, x_j) + Σ share_i(x_i)), where field + share = u'.
 /// Agents are ranked by how much they are coupled, the most first; interchangeable ones in the order given.
 /// O(n²·m²) time and memory.
-class pairwise_model {
+class pair_model {
 public:
   /// What stands for a forbidden slot or combination in exact sums: one of it and the sum is below every valid value.
-  static constexpr std::int64_t forbidden = -2 * max_pairwise_total;
+  static constexpr std::int64_t forbidden = -2 * max_pair_total;
   /// No valid assignment is worth as little.
-  static constexpr std::int64_t nothing = -max_pairwise_total - 1;
+  static constexpr std::int64_t nothing = -max_pair_total - 1;
   /// Prices of slots stay within this magnitude, so that a field less a price is a lane.
   static constexpr std::int32_t most_price = 8192;
 
-  void prepare(pairwise_instance const& in, bool symmetry) {
+  void prepare(pair_instance const& in, bool symmetry) {
     read(in);
     find_kinds(symmetry);
     center();
@@ -114,9 +114,9 @@ private:
     return v < 0 ? 0 - static_cast<std::uint64_t>(v) : static_cast<std::uint64_t>(v);
   }
 
-  void read(pairwise_instance const& in) {
-    ROTA_ASSERT(in.agents <= max_pairwise_agents && in.slot_count() <= max_pairwise_slots);
-    ROTA_ASSERT(in.unary.size() == in.agents * in.slot_count());
+  void read(pair_instance const& in) {
+    ROTA_ASSERT(in.agents <= max_pair_agents && in.slots() <= max_pair_slots);
+    ROTA_ASSERT(in.unary.size() == in.agents * in.slots());
     agents_ = in.agents;
     slots_ = in.slot_count();
     stride_ = lane_stride(agents_);
@@ -130,7 +130,7 @@ private:
         unary_[a * slots_ + x] = u == absent ? forbidden : u;
         if (u != absent) most = (std::max)(most, magnitude(u));
       }
-      total += std::min<std::uint64_t>(most, max_pairwise_total + 1);
+      total += std::min<std::uint64_t>(most, max_pair_total + 1);
     }
     pairs_.assign(agents_ * slots_ * agents_ * slots_, 0);
     coupled_.assign(agents_ * agents_, 0);
@@ -152,9 +152,9 @@ private:
           }
           pair_at(c.second, y, c.first, x) = here;
         }
-      total += std::min<std::uint64_t>(most, max_pairwise_total + 1);
+      total += std::min<std::uint64_t>(most, max_pair_total + 1);
     }
-    ROTA_ASSERT(total <= static_cast<std::uint64_t>(max_pairwise_total));
+    ROTA_ASSERT(total <= static_cast<std::uint64_t>(max_pair_total));
     total_ = total;
   }
 

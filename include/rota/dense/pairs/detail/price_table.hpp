@@ -46,7 +46,7 @@ public:
   /// How many final counts there are, or more than `most_finals(agents)`.
   static std::size_t number_of_finals(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper,
                                       std::size_t agents) {
-    std::array<std::size_t, max_pairwise_agents + 1> ways{};
+    std::array<std::size_t, max_pair_agents + 1> ways{};
     ways[0] = 1;
     for (std::size_t s = 0; s < upper.size(); ++s)
       for (std::size_t r = agents + 1; r-- > 0;) {
@@ -57,7 +57,7 @@ public:
     return ways[agents];
   }
 
-  void prepare(pairwise_model const& model, suffix_bounds const& suffix, std::span<std::uint32_t const> lower,
+  void prepare(pair_model const& model, suffix_bounds const& suffix, std::span<std::uint32_t const> lower,
                std::span<std::uint32_t const> upper) {
     agents_ = model.agents();
     slots_ = upper.size();
@@ -157,12 +157,11 @@ public:
 
 private:
   static lane limited(std::int64_t price) {
-    return static_cast<lane>(
-        std::clamp<std::int64_t>(price, -pairwise_model::most_price + 1, pairwise_model::most_price - 1));
+    return static_cast<lane>(std::clamp<std::int64_t>(price, -pair_model::most_price + 1, pair_model::most_price - 1));
   }
 
   /// means_[d][z][y]: the sum of what placed agents in z give to unplaced ones in y, over all pairs split at depth d.
-  void average(pairwise_model const& model) {
+  void average(pair_model const& model) {
     std::size_t const n = agents_;
     std::size_t const m = slots_;
     means_.assign((n + 1) * m * m, 0);
@@ -208,7 +207,7 @@ private:
     }
     // Only differences matter, and lanes are narrow. What is full costs the most: nobody pays it.
     for (std::size_t y = 0; y < slots_; ++y)
-      s.prices[y] = space_->count(placed, y) == upper_[y] ? pairwise_model::most_price - 1
+      s.prices[y] = space_->count(placed, y) == upper_[y] ? pair_model::most_price - 1
                                                           : limited(price[y] - sum / static_cast<std::int64_t>(slots_));
     s.most = evaluate(s, s.prices.data(), s.final);
   }

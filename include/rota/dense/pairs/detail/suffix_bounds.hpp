@@ -46,8 +46,8 @@ public:
   static constexpr float feasible = -1e8F;
 
   /// Where stop() says so, for fewer ranks than planned.
-  template <class Stop>
-  void prepare(pairwise_model const& model, std::span<std::uint32_t const> upper, suffix_plan plan, Stop& stop) {
+  void prepare(pair_model const& model, std::span<std::uint32_t const> upper, suffix_plan plan,
+               stop_request const& stop) {
     agents_ = model.agents();
     slots_ = model.slot_count();
     upper_ = upper;
@@ -117,7 +117,7 @@ private:
 
   float* by(std::size_t d) { return &by_[(agents_ - d) * stride_ * width_]; }
 
-  void flatten(pairwise_model const& model) {
+  void flatten(pair_model const& model) {
     flat_.assign(agents_ + 1, 0);
     step_.assign(agents_, 0);
     for (std::size_t d = agents_; d-- > 0;) {
@@ -186,8 +186,7 @@ private:
 
   // Enumeration. A column is a pair of slots x ≤ y: once with the last agent but one in x, once with it in y. Lanes hold
   // what is lost against the greatest entries; what is lost beyond the floors counts as the floor, which is more.
-  template <class Stop>
-  void enumerate(pairwise_model const& model, Stop& stop) {
+  void enumerate(pair_model const& model, stop_request const& stop) {
     std::size_t const n = agents_;
     std::size_t const levels = enumerated_;
     for (std::size_t k = 1; k <= levels; ++k) std::fill_n(by(n - k), space_.size(k) * width_, impossible);
@@ -260,11 +259,11 @@ private:
     return static_cast<lane>((std::max)(-(-v >> coarse_), floor));
   }
   [[nodiscard]] std::int32_t pair_most(std::size_t i, std::size_t j) const { return pair_most_[i * agents_ + j]; }
-  [[nodiscard]] std::int32_t last_pair(pairwise_model const& model, std::size_t x, std::size_t y) const {
+  [[nodiscard]] std::int32_t last_pair(pair_model const& model, std::size_t x, std::size_t y) const {
     return model.pair(agents_ - 2, x, agents_ - 1, y) + model.share(agents_ - 2, x) + model.share(agents_ - 1, y);
   }
 
-  void find_maxima(pairwise_model const& model, std::size_t d) {
+  void find_maxima(pair_model const& model, std::size_t d) {
     pair_most_.resize(agents_ * agents_);
     share_most_.resize(agents_);
     for (std::size_t i = d; i < agents_; ++i) {
@@ -290,8 +289,8 @@ private:
   }
 
   /// Places the agents of ranks i… but the last two, which are added side by side. `to`: by the slot of rank `first`.
-  void place_pairs(pairwise_model const& model, std::size_t first, std::size_t i, std::size_t number,
-                   std::int32_t value, lane* to, lane* sums, std::int32_t* inner) {
+  void place_pairs(pair_model const& model, std::size_t first, std::size_t i, std::size_t number, std::int32_t value,
+                   lane* to, lane* sums, std::int32_t* inner) {
     std::size_t const n = agents_;
     std::size_t const width = (n - 2 - i) * slots_;
     std::size_t const apart = i == first ? space_.size(n - first - 2) * columns_ : 0;
@@ -315,7 +314,7 @@ private:
   }
 
   // Expansion: the ways to place the first agents of a suffix, side by side, `lanes_at_once` at a time.
-  void expand(pairwise_model const& model, std::size_t d, std::size_t placed) {
+  void expand(pair_model const& model, std::size_t d, std::size_t placed) {
     std::size_t const n = agents_;
     std::size_t const e = d + placed;
     std::size_t const ways = list_ways(placed);
@@ -332,8 +331,7 @@ private:
   }
 
   /// now_ ← what the placed have, gains_ ← what each other agent gets from them, in each way; both as losses.
-  std::int32_t set_gains(pairwise_model const& model, std::size_t d, std::size_t e, std::size_t first,
-                         std::size_t count) {
+  std::int32_t set_gains(pair_model const& model, std::size_t d, std::size_t e, std::size_t first, std::size_t count) {
     std::size_t const placed = e - d;
     std::int32_t most = (std::numeric_limits<std::int32_t>::min)();
     std::fill(gains_.begin(), gains_.end(), lane{0});
