@@ -161,7 +161,7 @@ private:
     }
     auto const& found = m.together;
     if (found.found() && utility_of(m.placed, found.value) >= 0)  // short of proving it canonical, it is not optimal
-      return accept(m.placed, found.value, found.proved() ? found.value : std::max(found.bound, found.value + 1));
+      return accept(m.placed, found.value, found.proved() ? found.value : (std::max)(found.bound, found.value + 1));
     if (found.status == dense::status::infeasible) {
       coupling_fault_ = form_.pair_fault();
       return coupling_refused();

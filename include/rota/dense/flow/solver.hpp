@@ -70,13 +70,13 @@ private:
   using value = slot_graph::value;
 
   flow_outcome begin(instance const& in, work_limit const& limit) {
-    ROTA_ASSERT(in.utility.size() == in.agents * in.slots());
+    ROTA_ASSERT(in.utility.size() == in.agents * in.slot_count());
     ROTA_ASSERT(in.taking_part.empty() || in.taking_part.size() == in.agents);
     warm_ = false;
     agents_ = 0;
     for (std::size_t a = 0; a < in.agents; ++a) agents_ += in.takes_part(a);
     if (auto const out = tighten(in)) return *out;
-    if (in.slots() == 0) return placed(status::optimal, 0, 0, false);
+    if (in.slot_count() == 0) return placed(status::optimal, 0, 0, false);
     if (!opening_.play(graph_, agents_, limit)) return refused(flow_obstacle::agent_stuck, opening_.homeless());
     return finish(in, limit, false);
   }
@@ -126,7 +126,7 @@ private:
     for (auto const b : in.bounds) least += b.lower, most += b.upper;
     auto const n = static_cast<value>(agents_);
     if (n > most) return refused(flow_obstacle::agent_stuck, first_taking_part(in));
-    for (std::size_t k = 0; k < in.slots(); ++k) {
+    for (std::size_t k = 0; k < in.slot_count(); ++k) {
       auto const [lower, upper] = in.bounds[k];
       value const implied_upper = n - (least - value{lower});
       if (lower > upper || value{lower} > implied_upper) return refused(flow_obstacle::slot_short, k);
@@ -196,7 +196,7 @@ private:
       return refused(flow_obstacle::slot_short, k);
     }
     auto least = graph_.who().first(stuck);
-    for (auto a = least; a != membership::nobody; a = graph_.who().next(a)) least = std::min(least, a);
+    for (auto a = least; a != membership::nobody; a = graph_.who().next(a)) least = (std::min)(least, a);
     return refused(flow_obstacle::agent_stuck, least);
   }
 

@@ -61,15 +61,15 @@ private:
   pair_outcome run(pair_instance const& in, work_limit const& limit, Observer& observer) {
     auto budget = limit.steps;
     stop_request const& stop = limit.stop;
-    ROTA_ASSERT(in.agents <= max_pair_agents && in.slots() <= max_pair_slots);
+    ROTA_ASSERT(in.agents <= max_pair_agents && in.slot_count() <= max_pair_slots);
     pair_outcome out;
     std::size_t const n = in.agents;
     best_ = {false, detail::pair_model::nothing, std::move(best_.assignment)};
     best_.assignment.assign(n, no_slot);
     tallies_.assign(n + 1, {});
-    if (n == 0 || in.slots() == 0) return nothing_to_choose(in);
-    if (detail::plain_search::suits(n, in.slots())) {
-      auto const plainly = std::min(effort.plain_nodes, budget / 2);
+    if (n == 0 || in.slot_count() == 0) return nothing_to_choose(in);
+    if (detail::plain_search::suits(n, in.slot_count())) {
+      auto const plainly = (std::min)(effort.plain_nodes, budget / 2);
       detail::no_observer nobody;
       std::int64_t value = 0;
       auto const found = small_.solve(in, plainly, best_.assignment, value, tallies_, nobody);
@@ -95,7 +95,7 @@ private:
     bound_suffixes(budget, stop);
     search_.prepare(model_, suffix_, prices_, lower_, upper_);
     std::uint64_t const spent = suffix_.work();
-    std::uint64_t const left = budget - std::min(budget, spent);
+    std::uint64_t const left = budget - (std::min)(budget, spent);
     bool const exhausted = search_.run(best_, left, stop, observer);
     tallies_.assign(search_.account().begin(), search_.account().end());
     std::uint64_t const nodes = search_.nodes();
@@ -110,7 +110,7 @@ private:
     }
     out.status = best_.found ? status::feasible : status::unknown;
     out.value = best_.found ? best_.value : 0;
-    out.bound = std::max(best_.value, search_.open_bound());
+    out.bound = (std::max)(best_.value, search_.open_bound());
     return out;
   }
 

@@ -159,7 +159,7 @@ private:
       } else if (oracle.hopeless(prefix)) {
         leave(out.account.hopeless, depth + 1, out);
       } else {
-        bound_[depth + 1] = std::min(bound_[depth], oracle.bound(prefix, sum));
+        bound_[depth + 1] = (std::min)(bound_[depth], oracle.bound(prefix, sum));
         if (found_ && (known_ ? bound_[depth + 1] < out.value : bound_[depth + 1] <= out.value)) {
           leave(out.account.bounded, depth + 1, out);
           if (known_ && std::equal(prefix.begin(), prefix.end(), best_.begin()))

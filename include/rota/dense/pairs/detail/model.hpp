@@ -115,8 +115,8 @@ private:
   }
 
   void read(pair_instance const& in) {
-    ROTA_ASSERT(in.agents <= max_pair_agents && in.slots() <= max_pair_slots);
-    ROTA_ASSERT(in.unary.size() == in.agents * in.slots());
+    ROTA_ASSERT(in.agents <= max_pair_agents && in.slot_count() <= max_pair_slots);
+    ROTA_ASSERT(in.unary.size() == in.agents * in.slot_count());
     agents_ = in.agents;
     slots_ = in.slot_count();
     stride_ = lane_stride(agents_);

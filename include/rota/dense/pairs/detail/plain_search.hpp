@@ -50,7 +50,7 @@ private:
   static constexpr std::int64_t nothing = forbidden / 2;
 
   void read(pair_instance const& in) {
-    ROTA_ASSERT(in.unary.size() == in.agents * in.slots());
+    ROTA_ASSERT(in.unary.size() == in.agents * in.slot_count());
     agents_ = in.agents;
     slots_ = in.slot_count();
     row_ = agents_ * slots_;
