@@ -320,22 +320,22 @@ private:
   template <class Observer>
   std::uint64_t candidates(std::size_t d, frame const& f, Observer& observer) {
     pair_tally& tally = tallies_[d + 1];
-    std::uint64_t slots = f.missing >= agents_ - d ? f.open & f.wanting : f.open;
+    std::uint64_t slot_set = f.missing >= agents_ - d ? f.open & f.wanting : f.open;
     std::uint64_t const all = all_slots();
-    if (slots != all) {
-      tally.by_cardinality += number_of(all & ~slots);
-      cut_all(observer, d, all & ~slots, pair_cut::cardinality);
+    if (slot_set != all) {
+      tally.by_cardinality += number_of(all & ~slot_set);
+      cut_all(observer, d, all & ~slot_set, pair_cut::cardinality);
     }
     if (std::uint64_t const out = slot_set & ~present_[d]; out != 0) {
       tally.by_absence += number_of(out);
       cut_all(observer, d, out, pair_cut::absence);
-      slots &= present_[d];
+      slot_set &= present_[d];
     }
     if (std::uint32_t const twin = model_->twin_before(d); twin != no_slot) {
       std::uint64_t const earlier = slot_set & ((std::uint64_t{1} << at_[twin]) - 1);
       tally.by_symmetry += number_of(earlier);
       cut_all(observer, d, earlier, pair_cut::symmetry);
-      slots &= ~earlier;
+      slot_set &= ~earlier;
     }
     return slot_set;
   }
@@ -430,10 +430,10 @@ private:
       observer(placed(d, x), pair_cut::bound, model_->exact(allowed));
   }
   template <class Observer>
-  void cut_all(Observer& observer, std::size_t d, std::uint64_t slots, pair_cut why) {
+  void cut_all(Observer& observer, std::size_t d, std::uint64_t slot_set, pair_cut why) {
     if constexpr (!std::is_same_v<Observer, no_observer>)
-      for (; slots != 0; slots &= slots - 1)
-        observer(placed(d, static_cast<slot>(std::countr_zero(slots))), why, pair_model::nothing);
+      for (; slot_set != 0; slot_set &= slot_set - 1)
+        observer(placed(d, static_cast<slot>(std::countr_zero(slot_set))), why, pair_model::nothing);
   }
   std::span<slot const> placed(std::size_t d, slot x) {
     std::fill(partial_.begin(), partial_.end(), no_slot);
