@@ -18,6 +18,7 @@
 #include <rota/core/result.hpp>
 #include <rota/core/time.hpp>
 #include <rota/core/vocabulary.hpp>
+#include <rota/domain.hpp>
 #include <rota/model/outline.hpp>
 #include <rota/model/plan_type.hpp>
 #include <rota/model/team.hpp>

@@ -278,10 +278,10 @@ TEST(fixed_point, a_sum_beyond_64_bits_is_refused_and_changes_nothing) {
 
 TEST(hysteresis, the_margin_is_exact_and_never_overflows) {
   auto fixed = [](double u) { return rota::quantise(u).value(); };
-  EXPECT_FALSE(rota::beats(fixed(1.5), fixed(1), rota::margin_of(0.5)));
-  EXPECT_TRUE(rota::beats({fixed(1.5).units + 1}, fixed(1), rota::margin_of(0.5)));
-  EXPECT_FALSE(rota::beats(fixed(1), fixed(1), rota::margin_of(0)));
-  EXPECT_FALSE(rota::beats(fixed(rota::max_utility), fixed(0), rota::margin_of(1e300)));
+  EXPECT_FALSE(rota::detail::beats(fixed(1.5), fixed(1), rota::detail::margin_of(0.5)));
+  EXPECT_TRUE(rota::detail::beats({fixed(1.5).units + 1}, fixed(1), rota::detail::margin_of(0.5)));
+  EXPECT_FALSE(rota::detail::beats(fixed(1), fixed(1), rota::detail::margin_of(0)));
+  EXPECT_FALSE(rota::detail::beats(fixed(rota::max_utility), fixed(0), rota::detail::margin_of(1e300)));
 }
 
 }  // namespace

@@ -305,7 +305,7 @@ struct team_of {
   }
   rota::solution<names> solve(rota::plan_description<names, rota::no_beliefs> d, rota::search_budget budget = {}) {
     auto const type = rota::plan_type<names>::make({}, {plan_t::make(std::move(d)).value()}).value();
-    auto const found = best_allocation(rota::problem{type, members, rota::no_beliefs{}}, space, budget);
+    auto const found = best_allocation(rota::problem{type, members}, space, budget);
     EXPECT_TRUE(found);
     return found ? *found : rota::solution<names>{};
   }
@@ -351,7 +351,7 @@ TEST(reallocate, passes_on_what_a_search_complains_of) {
   team_of team(5);
   auto const ask = [&] {
     auto const type = rota::plan_type<names>::make({}, {plan_t::make(d).value()}).value();
-    return reallocate(rota::problem{type, team.members, rota::no_beliefs{}}, {}, {}, team.space, {.audit = true});
+    return reallocate(rota::problem{type, team.members}, {}, {}, team.space, {.audit = true});
   };
   auto const some = ask();
   EXPECT_TRUE(some.plan);
@@ -401,7 +401,7 @@ TEST(best_allocation, that_is_stopped_at_once_has_an_answer_all_the_same) {
   }
   // And it is no worse than what runs, if that is valid.
   auto const type = rota::plan_type<names>::make({}, {plan_t::make(d).value()}).value();
-  rota::problem<names, rota::no_beliefs> p{type, team.members, rota::no_beliefs{}};
+  rota::problem<names, rota::no_beliefs> p{type, team.members};
   rota::allocation_atoms<names> runs;
   for (int a = 0; a < 3; ++a) runs.insert({names::agent(a + 1), {}, names::task(2 - a)});
   p.current = runs.atoms();
@@ -482,7 +482,7 @@ TEST(best_allocation, branch_and_bound_in_a_steady_loop_allocates_nothing) {
   rota::allocation_atoms<names> runs;
   auto const tick = [&](double u) {
     more = u;
-    auto const next = reallocate(rota::problem{type, team.members, rota::no_beliefs{}}, runs, {}, team.space);
+    auto const next = reallocate(rota::problem{type, team.members}, runs, {}, team.space);
     EXPECT_GT(next.work.nodes, 0u);
     runs = next.atoms;
   };

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <optional>
 
 namespace {
 
@@ -53,6 +55,14 @@ TEST(cardinality, unbounded_admits_any_number) {
   EXPECT_FALSE((rota::cardinality{0, rota::cardinality::unbounded - 1}.admits(std::size_t{1} << 40)));
 }
 
+TEST(cardinality, empty_bounds_can_be_written_and_admit_nothing) {
+  rota::cardinality const c{3, 1};
+  EXPECT_TRUE(c.is_empty());
+  for (std::size_t n = 0; n < 6; ++n) EXPECT_FALSE(c.admits(n));
+  EXPECT_FALSE((rota::cardinality{1, 1}.is_empty()));
+  EXPECT_FALSE(rota::cardinality{}.is_empty());
+}
+
 TEST(plan, every_defect_is_refused_by_name) {
   auto d = description();
   EXPECT_TRUE(plan_t::make(d));
@@ -71,6 +81,53 @@ TEST(plan, every_defect_is_refused_by_name) {
     d.hysteresis = h;
     EXPECT_EQ(plan_t::make(d).error().what, defect::kind::threshold_not_finite);
   }
+  d = description();
+  d.tasks.push_back({names::task::block, {3, 1}, {}});
+  EXPECT_EQ(plan_t::make(d).error(), (defect{defect::kind::empty_cardinality, names::task::block, {3, 1}}));
+  d = description();
+  d.team_size = {2, 1};
+  EXPECT_EQ(plan_t::make(d).error(), (defect{defect::kind::empty_team_size, {}, {2, 1}}));
+}
+
+TEST(plan, a_weight_that_is_no_number_is_refused) {
+  for (double w : {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
+    auto d = description();
+    d.utility = {{1.0, rota::role_priorities{}}, {w, rota::similarity{}}};
+    EXPECT_EQ(plan_t::make(d).error().what, defect::kind::weight_not_finite);
+  }
+}
+
+/// Which form a utility has, as its place among the forms.
+std::size_t form_of(rota::utility<names, rota::no_beliefs> const& u) { return u.form().index(); }
+
+TEST(utility, a_plain_callable_has_the_form_of_its_signature) {
+  using agent = names::agent;
+  using task = names::task;
+  using none = rota::no_beliefs;
+  using view = rota::allocation_view<names>;
+  enum : std::size_t { additive, pairwise, general, sum };
+  EXPECT_EQ(form_of([](agent, task, none const&) { return 1.0; }), additive);
+  EXPECT_EQ(form_of([](agent, task, none) { return std::optional<double>(); }), additive);
+  EXPECT_EQ(form_of([](auto, auto, auto const&) { return 1; }), additive);
+  EXPECT_EQ(form_of(+[](agent, task, none const&) { return 1.0f; }), additive);
+  EXPECT_EQ(form_of([](agent, task, agent, task, none const&) { return 1.0; }), pairwise);
+  EXPECT_EQ(form_of([](none const&, view) { return 1.0; }), general);
+  EXPECT_EQ(form_of(rota::additive_utility<names, none>()), additive);
+  EXPECT_EQ(form_of(rota::general_utility<names, none>()), general);
+  EXPECT_EQ(form_of({{0.5, [](agent, task, none const&) { return 1.0; }}, {0.5, rota::role_priorities{}}}), sum);
+}
+
+TEST(utility, an_empty_function_stays_empty) {
+  using none = rota::no_beliefs;
+  auto d = description();
+  d.utility = {};
+  EXPECT_EQ(plan_t::make(d).error().what, defect::kind::missing_utility);
+  d.utility = std::function<double(names::agent, names::task, none const&)>{};
+  EXPECT_EQ(plan_t::make(d).error().what, defect::kind::missing_utility);
+  d.utility = rota::weighted_sum<names, none>{};
+  EXPECT_EQ(plan_t::make(d).error().what, defect::kind::missing_utility);
+  d.utility = {{1.0, rota::role_priorities{}}, {1.0, rota::pairwise_utility<names, none>{}}};
+  EXPECT_EQ(plan_t::make(d).error().what, defect::kind::missing_utility);
 }
 
 TEST(plan, does_not_depend_on_the_order_of_its_tasks) {

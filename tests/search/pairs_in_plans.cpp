@@ -86,8 +86,8 @@ TEST(pairwise_plans, solver_and_tree_agree) {
     auto const pairs = world.type(false);
     auto const tree = world.type(true);
     auto const members = team_of(n);
-    rota::problem ask{pairs, members, rota::no_beliefs{}};
-    rota::problem ask_tree{tree, members, rota::no_beliefs{}};
+    rota::problem ask{pairs, members};
+    rota::problem ask_tree{tree, members};
     if (d.chance(30)) ask.idle = ask_tree.idle = rota::idling::forbidden;
     rota::search_budget enough;
     enough.nodes = ~std::uint64_t{0};
@@ -117,7 +117,7 @@ TEST(pairwise_plans, a_team_of_fourteen_is_proved_within_the_usual_budget) {
   auto const type = world.type(false);
   auto const members = team_of(14);
   rota::workspace work;
-  auto const found = best_allocation(rota::problem{type, members, rota::no_beliefs{}}, work);
+  auto const found = best_allocation(rota::problem{type, members}, work);
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->optimal);
   EXPECT_EQ(found->gap, 0);
@@ -130,7 +130,7 @@ TEST(pairwise_plans, any_budget_leaves_a_valid_allocation_and_a_gap) {
     drawn const world(d, 9, 3, 6, d.chance(50) ? 0 : 3);
     auto const type = world.type(false);
     auto const members = team_of(9);
-    rota::problem const ask{type, members, rota::no_beliefs{}};
+    rota::problem const ask{type, members};
     rota::workspace work;
     rota::workspace spent;
     rota::search_budget little;
@@ -162,7 +162,7 @@ TEST(pairwise_plans, what_has_not_changed_is_not_searched_again_and_allocates_no
   drawn world(d, 8, 3, 9, 0);
   auto const type = world.type(false);
   auto const members = team_of(8);
-  rota::problem const ask{type, members, rota::no_beliefs{}};
+  rota::problem const ask{type, members};
   rota::workspace work;
   auto const first = best_allocation(ask, work);
   ASSERT_TRUE(first);
@@ -210,7 +210,7 @@ TEST(pairwise_plans, what_is_no_utility_names_both_agents) {
   rota::workspace work;
   for (bool as_tree : {false, true}) {
     auto const type = world.type(as_tree);
-    auto const none = best_allocation(rota::problem{type, members, rota::no_beliefs{}}, work);
+    auto const none = best_allocation(rota::problem{type, members}, work);
     ASSERT_FALSE(none);
     ASSERT_EQ(none.error().plans.size(), 1u);
     EXPECT_EQ(none.error().plans[0].why, rota::no_plan_reason::utility_refused);
@@ -219,7 +219,7 @@ TEST(pairwise_plans, what_is_no_utility_names_both_agents) {
   world.list[0] = {names::task(0), {0, 2}, {}};
   for (bool as_tree : {false, true}) {
     auto const type = world.type(as_tree);
-    auto const found = best_allocation(rota::problem{type, members, rota::no_beliefs{}}, work);
+    auto const found = best_allocation(rota::problem{type, members}, work);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->atoms.size(), 1u);
     ASSERT_TRUE(found->ignored && found->ignored->atom && found->ignored->other);
@@ -236,7 +236,7 @@ TEST(pairwise_plans, beyond_the_limits_of_the_pairwise_solver) {
   drawn const crowd(d, 65, 2, 3, 0);
   auto const type = crowd.type(false);
   auto const members = team_of(65);
-  rota::problem const ask{type, members, rota::no_beliefs{}};
+  rota::problem const ask{type, members};
   rota::search_budget little;
   little.nodes = 10000;
   auto const found = best_allocation(ask, work, little);
@@ -250,7 +250,7 @@ TEST(pairwise_plans, beyond_the_limits_of_the_pairwise_solver) {
   great.together[0 * 6 + 2] = -rota::max_utility;  // agents 0 and 1, both on task 0
   auto const of_great = great.type(false);
   auto const few = team_of(3);
-  auto const best = best_allocation(rota::problem{of_great, few, rota::no_beliefs{}}, work);
+  auto const best = best_allocation(rota::problem{of_great, few}, work);
   ASSERT_TRUE(best);
   EXPECT_TRUE(best->optimal);
   EXPECT_EQ(best->utility, 3 * rota::max_utility + 12);
@@ -262,7 +262,7 @@ TEST(pairwise_plans, beyond_the_limits_of_the_pairwise_solver) {
   for (auto& u : alone.alone) u = rota::max_utility;
   for (auto& w : alone.together) w = 0;
   auto const of_alone = alone.type(false);
-  rota::problem const all_three{of_alone, few, rota::no_beliefs{}};
+  rota::problem const all_three{of_alone, few};
   auto const possible = best_allocation(all_three, work);
   ASSERT_TRUE(possible);
   EXPECT_EQ(possible->utility, 3 * rota::max_utility);

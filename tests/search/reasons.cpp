@@ -216,7 +216,7 @@ TEST(no_allocation, functions_that_throw) {
   rota::workspace work;
   auto solve = [&] {
     auto const type = plan_type_t::make(names::plan_type::only, {plan_t::make(d).value()}).value();
-    return best_allocation(rota::problem{type, team, rota::no_beliefs{}}, work);
+    return best_allocation(rota::problem{type, team}, work);
   };
   EXPECT_EQ(solve().error().plans[0].why, reason::precondition_threw);
   d.precondition = {};
@@ -276,7 +276,7 @@ TEST(best_allocation, additive_is_polynomial) {  // ALICA's defect 7: 16 x 8 too
       });
       auto const type = rota::plan_type<V>::make({}, {rota::plan<V>::make(d).value()}).value();
       rota::workspace work;
-      auto const s = best_allocation(rota::problem{type, team, rota::no_beliefs{}}, work);
+      auto const s = best_allocation(rota::problem{type, team}, work);
       ASSERT_TRUE(s);
       EXPECT_TRUE(s->optimal);
       auto const agents = static_cast<std::uint64_t>(n);

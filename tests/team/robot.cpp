@@ -258,8 +258,8 @@ TEST_F(agent_test, a_claim_that_mixes_plans_is_malformed) {
   auto const worth = rota::additive_utility<soccer, view>([](auto, auto, view const&) { return std::optional(0.0); });
   using plan = rota::plan<soccer, view>;
   auto const two = *rota::plan_type<soccer, view>::make(
-      play_id, {*plan::make({.plan = soccer::plan::normal, .tasks = {{attack, {0, 1}}}, .utility = worth}),
-                *plan::make({.plan = soccer::plan::kickoff, .tasks = {{attack, {0, 1}}}, .utility = worth})});
+      play_id, {*plan::make({.plan = soccer::plan::normal, .tasks = {{attack, {0, 1}, {}}}, .utility = worth}),
+                *plan::make({.plan = soccer::plan::kickoff, .tasks = {{attack, {0, 1}, {}}}, .utility = worth})});
   robot_agent a(robot(1), squad(9));
   a.enter(two, start);
   auto c = claim_by(9, 1);

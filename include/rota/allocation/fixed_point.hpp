@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rota/core/result.hpp>
+#include <rota/model/detail/finite.hpp>
 
 #include <compare>
 #include <cstdint>
@@ -25,8 +26,8 @@ inline constexpr double max_utility = 1073741824.0;  // 2^30
 
 /// A utility as an integer number of units of 2^-20.
 ///
-/// Quantised once, then summed exactly: no sum depends on its order, so agents with equal beliefs decide equally.
-/// Sums of up to 4096 utilities cannot overflow.
+/// Each number is rounded once; sums are exact. So no sum depends on its order, and agents with equal beliefs decide
+/// equally. Sums of up to 4096 utilities cannot overflow.
 struct fixed_utility {
   static constexpr double units_per_one = 1048576.0;  // 2^20
   std::int64_t units = 0;
@@ -36,12 +37,11 @@ struct fixed_utility {
 
 /// The fixed-point value nearest to u, halves away from zero, whatever the rounding mode; or why there is none.
 [[nodiscard]] constexpr result<fixed_utility, utility_fault> quantise(double u) noexcept {
-  if (!(u >= -max_utility && u <= max_utility)) {
-    if (u != u) return refused{utility_fault::not_a_number};
-    if (u > (std::numeric_limits<double>::max)()) return refused{utility_fault::positive_infinity};
-    if (u < std::numeric_limits<double>::lowest()) return refused{utility_fault::negative_infinity};
-    return refused{utility_fault::out_of_range};
+  if (!detail::is_finite(u)) {
+    if (detail::is_nan(u)) return refused{utility_fault::not_a_number};
+    return refused{detail::has_minus_sign(u) ? utility_fault::negative_infinity : utility_fault::positive_infinity};
   }
+  if (u < -max_utility || u > max_utility) return refused{utility_fault::out_of_range};
   double const scaled = u * fixed_utility::units_per_one;  // exact: a power of two
   auto units = static_cast<std::int64_t>(scaled);
   double const rest = scaled - static_cast<double>(units);

@@ -2,12 +2,16 @@
 
 #include <rota/allocation/fixed_point.hpp>
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace rota {
 
-/// The gain in utility that a running allocation must be beaten by: it stays while
+/// By how much a new allocation must beat the running one, which stays while
 /// U(best) − change costs ≤ U(current) + h, h = absolute + relative·|U(current)|.
+///
+/// An h that is infinite or beyond `max_utility` is one that nothing beats.
 struct hysteresis {
   std::optional<double> absolute{};  ///< unset: the running plan's own `hysteresis()`; @pre not negative, not NaN
   double relative = 0;               ///< a share of the current utility; @pre not negative, not NaN
@@ -15,11 +19,24 @@ struct hysteresis {
   friend bool operator==(hysteresis const&, hysteresis const&) = default;
 };
 
-/// h as a fixed-point gain. A gain beyond `max_utility` counts as one that nothing reaches.
+namespace detail {
+
+/// A margin that nothing beats.
+inline constexpr fixed_utility unbeatable{(std::numeric_limits<std::int64_t>::max)()};
+
+/// h as a fixed-point gain. @pre not negative, not NaN
 [[nodiscard]] constexpr fixed_utility margin_of(double h) noexcept {
-  ROTA_ASSERT(h >= 0);
+  ROTA_ASSERT(!is_nan(h) && !(h < 0));
   auto const fixed = quantise(h);
-  return fixed ? fixed.value() : fixed_utility{(std::numeric_limits<std::int64_t>::max)()};
+  return fixed && fixed.value().units >= 0 ? fixed.value() : unbeatable;
+}
+
+/// The h of a running allocation worth `current`, whose plan has the hysteresis `own`.
+[[nodiscard]] constexpr fixed_utility margin_of(hysteresis const& h, double own, fixed_utility current) noexcept {
+  if (!is_finite(h.relative)) return margin_of(h.relative);  // ∞·0 is NaN
+  auto margin = margin_of(h.absolute.value_or(own));
+  double const u = to_double(current);
+  return checked_add(margin, margin_of(h.relative * (u < 0 ? -u : u))) ? margin : unbeatable;
 }
 
 /// Whether `best` beats `current` by more than the margin. Exact; never overflows.
@@ -27,4 +44,5 @@ struct hysteresis {
   return checked_add(current, margin) && best > current;
 }
 
+}  // namespace detail
 }  // namespace rota

@@ -1,13 +1,8 @@
 #pragma once
 
-#include <rota/allocation/fixed_point.hpp>
-#include <rota/allocation/guarded.hpp>
-#include <rota/allocation/problem.hpp>
+#include <rota/allocation/detail/terms.hpp>
 
-#include <algorithm>
-#include <concepts>
 #include <optional>
-#include <type_traits>
 
 namespace rota {
 
@@ -20,67 +15,6 @@ struct utility_refusal {
 
   friend bool operator==(utility_refusal const&, utility_refusal const&) = default;
 };
-
-/// weight·value as a number of units, or why it cannot be counted.
-[[nodiscard]] constexpr result<fixed_utility, utility_fault> weigh(double weight, double value) noexcept {
-  return quantise(is_finite(value) ? weight * value : value);
-}
-
-/// total ← total + term; or why not, and total unchanged.
-[[nodiscard]] constexpr utility_fault add(fixed_utility& total,
-                                          result<fixed_utility, utility_fault> const& term) noexcept {
-  if (!term) return term.error();
-  return checked_add(total, term.value()) ? utility_fault::none : utility_fault::out_of_range;
-}
-
-/// One number of the user's, weighed: f() is what the user's function returns.
-template <class F>
-[[nodiscard]] result<fixed_utility, utility_fault> ask(double weight, F&& f) {
-  auto const value = guarded(f);
-  if (!value) return refused{utility_fault::threw};
-  if constexpr (std::is_floating_point_v<std::invoke_result_t<F&>>) {
-    return weigh(weight, *value);
-  } else {
-    if (!*value) return refused{utility_fault::forbidden_pair};
-    return weigh(weight, **value);
-  }
-}
-
-/// What one agent on one task adds to U_p by a part of it: nothing for parts that do not look at agents one by one.
-template <vocabulary V, class Beliefs, class Part>
-[[nodiscard]] result<fixed_utility, utility_fault> term_of(problem<V, Beliefs> const& problem, double weight,
-                                                           Part const& part, in<V> const& x) {
-  if constexpr (std::same_as<Part, role_priorities>) {
-    auto const* const role = problem.members.role_of(x.agent);
-    return weigh(weight, role != nullptr ? role->priority(x.task) : 0);
-  } else if constexpr (std::same_as<Part, similarity>) {
-    bool const stays = std::binary_search(problem.current.begin(), problem.current.end(), x);
-    return weigh(weight, stays ? 1 : 0);
-  } else if constexpr (std::same_as<Part, additive_utility<V, Beliefs>>) {
-    return ask(weight, [&] { return part(x.agent, x.task, problem.beliefs); });
-  } else if constexpr (std::same_as<Part, pairwise_utility<V, Beliefs>>) {
-    if (!part.alone) return fixed_utility{};
-    return ask(weight, [&] { return part.alone(x.agent, x.task, problem.beliefs); });
-  } else {
-    return fixed_utility{};
-  }
-}
-
-/// What two agents on their tasks add to U_p by a pairwise part of it. @pre x.agent < y.agent
-template <vocabulary V, class Beliefs>
-[[nodiscard]] result<fixed_utility, utility_fault> term_of(problem<V, Beliefs> const& problem, double weight,
-                                                           pairwise_utility<V, Beliefs> const& part, in<V> const& x,
-                                                           in<V> const& y) {
-  return ask(weight, [&] { return part.together(x.agent, x.task, y.agent, y.task, problem.beliefs); });
-}
-
-/// What a general part adds to U_p.
-template <vocabulary V, class Beliefs>
-[[nodiscard]] result<fixed_utility, utility_fault> value_of(problem<V, Beliefs> const& problem, double weight,
-                                                            general_utility<V, Beliefs> const& part,
-                                                            allocation_view<V> atoms) {
-  return ask(weight, [&] { return part.value(problem.beliefs, atoms); });
-}
 
 namespace detail {
 

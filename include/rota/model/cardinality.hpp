@@ -3,6 +3,7 @@
 #include <rota/core/result.hpp>
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -17,35 +18,36 @@ struct empty_interval {
 
 /// ξ(p, τ) = [n₁, n₂]: how many agents may take on a task, both ends included; n₂ may be `unbounded`.
 ///
-/// Class invariant: lower() ≤ upper().
+/// [3, 1] can be written. It is empty: it admits no number, and `plan::make` refuses it.
 class cardinality {
 public:
   static constexpr std::uint32_t unbounded = (std::numeric_limits<std::uint32_t>::max)();
 
   /// [0, ∞), which restricts nothing.
   constexpr cardinality() = default;
-  /// @pre min ≤ max; use `make` for numbers from outside
-  constexpr cardinality(std::uint32_t min, std::uint32_t max) : min_(min), max_(max) { ROTA_ASSERT(min <= max); }
+  /// [lower, upper], which is empty if lower > upper.
+  constexpr cardinality(std::uint32_t lower, std::uint32_t upper) noexcept : lower_(lower), upper_(upper) {}
 
-  /// [min, max], refused if empty.
-  [[nodiscard]] static constexpr result<cardinality, empty_interval> make(std::uint32_t min, std::uint32_t max) {
-    if (min > max) return refused{empty_interval{min, max}};
-    return cardinality{min, max};
+  /// [lower, upper], refused if empty: for numbers from outside.
+  [[nodiscard]] static constexpr result<cardinality, empty_interval> make(std::uint32_t lower, std::uint32_t upper) {
+    if (lower > upper) return refused{empty_interval{lower, upper}};
+    return cardinality{lower, upper};
   }
 
-  [[nodiscard]] constexpr std::uint32_t lower() const noexcept { return min_; }
-  [[nodiscard]] constexpr std::uint32_t upper() const noexcept { return max_; }
-  [[nodiscard]] constexpr bool is_bounded() const noexcept { return max_ != unbounded; }
+  [[nodiscard]] constexpr std::uint32_t lower() const noexcept { return lower_; }
+  [[nodiscard]] constexpr std::uint32_t upper() const noexcept { return upper_; }
+  [[nodiscard]] constexpr bool is_bounded() const noexcept { return upper_ != unbounded; }
+  [[nodiscard]] constexpr bool is_empty() const noexcept { return lower_ > upper_; }
   /// n₁ ≤ n ≤ n₂.
   [[nodiscard]] constexpr bool admits(std::size_t n) const noexcept {
-    return n >= min_ && (!is_bounded() || n <= max_);
+    return n >= lower_ && (!is_bounded() || n <= upper_);
   }
 
   friend auto operator<=>(cardinality const&, cardinality const&) = default;
 
 private:
-  std::uint32_t min_ = 0;
-  std::uint32_t max_ = unbounded;
+  std::uint32_t lower_ = 0;
+  std::uint32_t upper_ = unbounded;
 };
 
 }  // namespace rota

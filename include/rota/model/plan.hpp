@@ -2,17 +2,20 @@
 
 #include <rota/model/allocation.hpp>
 #include <rota/model/cardinality.hpp>
+#include <rota/model/detail/parts.hpp>
 #include <rota/model/utility.hpp>
 
 #include <algorithm>
-#include <functional>
-#include <optional>
+#include <concepts>
 #include <span>
 #include <utility>
-#include <variant>
 #include <vector>
 
 namespace rota {
+
+namespace detail {
+struct missing {};
+}  // namespace detail
 
 /// For teams whose utilities and preconditions read no beliefs.
 struct no_beliefs {
@@ -22,9 +25,27 @@ struct no_beliefs {
 /// One task of a plan: its cardinality ξ(p, τ), and the state in which an agent that takes it on begins.
 template <vocabulary V = runtime_vocabulary>
 struct plan_task {
-  typename V::task task{};
+  typename V::task task;
   cardinality bounds;
-  typename V::state entry{};
+  typename V::state entry;
+
+  constexpr plan_task(typename V::task t, cardinality c, typename V::state z) : task(t), bounds(c), entry(z) {}
+
+  // What people write instead, so that the compiler says what is wrong with it.
+
+  template <class Task>
+  constexpr plan_task(Task const& t, cardinality c) : plan_task(t, c, detail::missing{}) {}
+  template <class Task, class State>
+    requires(!std::convertible_to<Task, typename V::task> || !std::convertible_to<State, typename V::state>)
+  constexpr plan_task(Task const&, cardinality c, State const&) : plan_task({}, c, {}) {
+    static_assert(std::convertible_to<Task, typename V::task>,
+                  "plan_task::task is of another type than the vocabulary's task");
+    static_assert(
+        !std::same_as<State, detail::missing>,
+        "plan_task::entry is missing: write {task, {min, max}, state}, with the state that an agent begins in");
+    static_assert(std::same_as<State, detail::missing> || std::convertible_to<State, typename V::state>,
+                  "plan_task::entry is of another type than the vocabulary's state");
+  }
 
   friend bool operator==(plan_task const&, plan_task const&) = default;
 };
@@ -37,20 +58,20 @@ enum class precondition_scope : bool {
 
 /// Pre(p), read over the beliefs and a complete allocation. An empty function holds always.
 template <vocabulary V, class Beliefs>
-using precondition = std::function<bool(Beliefs const&, allocation_view<V>)>;
+using precondition = detail::function<bool(Beliefs const&, allocation_view<V>)>;
 
-/// What can be said about Pre(p) while some agents are undecided.
+/// What a partial allocation can say about Pre(p).
 enum class possibility : unsigned char {
   no,       ///< it holds on no completion
   perhaps,  ///< unknown
   certain   ///< it holds on every completion
 };
 
-/// What a partial allocation says about Pre(p); the agents that are not undecided have their task, or idle. Lets a search
-/// leave what cannot come to hold.
+/// Judges Pre(p) on a partial allocation, so that a search can skip what can no longer hold. Agents that are not `undecided`
+/// have their task, or idle.
 template <vocabulary V, class Beliefs>
 using precondition_outlook =
-    std::function<possibility(Beliefs const&, allocation_view<V>, std::span<typename V::agent const> undecided)>;
+    detail::function<possibility(Beliefs const&, allocation_view<V>, std::span<typename V::agent const> undecided)>;
 
 /// Refusal: what is wrong with the description of a plan.
 template <vocabulary V>
@@ -61,14 +82,17 @@ struct plan_defect {
     missing_utility,       ///< the utility, or a part of it, holds no function
     weight_not_finite,     ///< a weight is NaN or infinite
     threshold_not_finite,  ///< hysteresis is negative, NaN or infinite
+    empty_cardinality,     ///< the `bounds` of `task` have min > max
+    empty_team_size,       ///< the team size `bounds` has min > max
   };
   kind what{};
   typename V::task task{};
+  cardinality bounds{};
 
   friend bool operator==(plan_defect const&, plan_defect const&) = default;
 };
 
-/// What a plan is made from; see `plan`.
+/// What a plan is made from. The utility may be a plain callable: `.utility = [](agent a, task t, Beliefs const& b) { … }`.
 template <vocabulary V, class Beliefs>
 struct plan_description {
   typename V::plan plan{};
@@ -77,13 +101,13 @@ struct plan_description {
   rota::precondition<V, Beliefs> precondition{};
   precondition_outlook<V, Beliefs> outlook{};  ///< optional; must agree with `precondition`
   precondition_scope scope = precondition_scope::always;
-  cardinality team_size{};  ///< how many agents the plan needs and bears in all
-  double hysteresis = 0;    ///< gain in utility below which a running allocation stays (ALICA's utilityThreshold)
+  cardinality team_size{};  ///< how many agents may have a task of the plan, in all
+  double hysteresis = 0;    ///< a running allocation stays unless another gains more (ALICA's utilityThreshold)
 };
 
 /// A plan p: a non-empty set of tasks with cardinalities, a precondition Pre(p) and a utility U_p. Immutable.
 ///
-/// Class invariant: tasks strictly ascending and at least one, a callable utility, a finite hysteresis ≥ 0.
+/// Class invariant: tasks strictly ascending and at least one, no bounds empty, a callable utility, a finite hysteresis ≥ 0.
 template <vocabulary V = runtime_vocabulary, class Beliefs = no_beliefs>
 class plan {
 public:
@@ -92,15 +116,18 @@ public:
   /// The plan, or the first defect of its description. O(t log t).
   [[nodiscard]] static result<plan, plan_defect<V>> make(description d) {
     using kind = typename plan_defect<V>::kind;
-    if (d.tasks.empty()) return refused{plan_defect<V>{kind::no_task, {}}};
+    if (d.tasks.empty()) return refused{plan_defect<V>{kind::no_task}};
     std::sort(d.tasks.begin(), d.tasks.end(), [](auto const& a, auto const& b) { return a.task < b.task; });
     auto const twice = std::adjacent_find(d.tasks.begin(), d.tasks.end(),
                                           [](auto const& a, auto const& b) { return a.task == b.task; });
     if (twice != d.tasks.end()) return refused{plan_defect<V>{kind::repeated_task, twice->task}};
-    if (!callable<V, Beliefs>(d.utility)) return refused{plan_defect<V>{kind::missing_utility, {}}};
-    if (!weights_are_finite<V, Beliefs>(d.utility)) return refused{plan_defect<V>{kind::weight_not_finite, {}}};
-    if (!(d.hysteresis >= 0) || !is_finite(d.hysteresis))
-      return refused{plan_defect<V>{kind::threshold_not_finite, {}}};
+    for (plan_task<V> const& t : d.tasks)
+      if (t.bounds.is_empty()) return refused{plan_defect<V>{kind::empty_cardinality, t.task, t.bounds}};
+    if (d.team_size.is_empty()) return refused{plan_defect<V>{kind::empty_team_size, {}, d.team_size}};
+    if (!detail::callable(d.utility)) return refused{plan_defect<V>{kind::missing_utility}};
+    if (!detail::weights_are_finite(d.utility)) return refused{plan_defect<V>{kind::weight_not_finite}};
+    if (d.hysteresis < 0 || !detail::is_finite(d.hysteresis))
+      return refused{plan_defect<V>{kind::threshold_not_finite}};
     return plan{std::move(d)};
   }
 

@@ -3,7 +3,9 @@
 #include <rota/model/plan.hpp>
 
 #include <algorithm>
+#include <initializer_list>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -22,12 +24,30 @@ struct plan_type_defect {
   friend bool operator==(plan_type_defect const&, plan_type_defect const&) = default;
 };
 
+namespace detail {
+
+/// One of the plans listed in a call of `plan_type::make`. Views it.
+template <vocabulary V, class Beliefs>
+struct listed_plan {
+  plan<V, Beliefs> const* which;
+
+  constexpr listed_plan(plan<V, Beliefs> const& p) noexcept : which(&p) {}
+  template <class Refusal>
+  constexpr listed_plan(result<plan<V, Beliefs>, Refusal> const&) noexcept : which(nullptr) {
+    static_assert(std::is_void_v<Refusal>,
+                  "this is the result of plan::make, which may be refused: check it, then pass `*result`");
+  }
+};
+
+}  // namespace detail
+
 /// A plan type pt: alternative plans for one problem. A team executes one of them, the best. Immutable.
 ///
 /// Class invariant: plans strictly ascending by id and at least one.
 template <vocabulary V = runtime_vocabulary, class Beliefs = no_beliefs>
 class plan_type {
 public:
+  /// The plan type, or the first defect of its plans. O(n log n).
   [[nodiscard]] static result<plan_type, plan_type_defect<V>> make(typename V::plan_type id,
                                                                    std::vector<plan<V, Beliefs>> plans) {
     using kind = typename plan_type_defect<V>::kind;
@@ -37,6 +57,14 @@ public:
         std::adjacent_find(plans.begin(), plans.end(), [](auto const& a, auto const& b) { return a.id() == b.id(); });
     if (twice != plans.end()) return refused{plan_type_defect<V>{kind::repeated_plan, twice->id()}};
     return plan_type{id, std::move(plans)};
+  }
+  /// As above, from plans listed in braces: `{*attack, *defend}`.
+  [[nodiscard]] static result<plan_type, plan_type_defect<V>>
+  make(typename V::plan_type id, std::initializer_list<detail::listed_plan<V, Beliefs>> plans) {
+    std::vector<plan<V, Beliefs>> copies;
+    copies.reserve(plans.size());
+    for (auto const& p : plans) copies.push_back(*p.which);
+    return make(id, std::move(copies));
   }
 
   [[nodiscard]] typename V::plan_type id() const noexcept { return id_; }

@@ -2,6 +2,7 @@
 
 #include <rota/core/assert.hpp>
 #include <rota/core/vocabulary.hpp>
+#include <rota/model/detail/finite.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -11,7 +12,7 @@ namespace rota {
 
 /// A role: for each task a priority; a negative priority forbids the task. (Role restrictions: prose of section 3.)
 ///
-/// Tasks not listed have the default priority. NaN is a precondition violation.
+/// Tasks not listed have the default priority.
 template <vocabulary V = runtime_vocabulary>
 class role {
 public:
@@ -19,11 +20,14 @@ public:
 
   /// Everything permitted at priority 0.
   role() = default;
-  explicit role(double default_priority) : default_priority_(default_priority) {}
+  /// @pre not NaN
+  explicit role(double default_priority) : default_priority_(default_priority) {
+    ROTA_ASSERT(!detail::is_nan(default_priority));
+  }
 
-  /// Sets one priority; the last call for a task counts. O(number of tasks).
+  /// Sets one priority; the last call for a task counts. O(number of tasks). @pre not NaN
   role& prioritise(task t, double priority) {
-    ROTA_ASSERT(priority == priority);
+    ROTA_ASSERT(!detail::is_nan(priority));
     auto const where = find(t);
     if (where != priorities_.end() && where->first == t) {
       where->second = priority;

@@ -1,65 +1,132 @@
 #pragma once
 
 #include <rota/model/allocation.hpp>
+#include <rota/model/detail/function.hpp>
 
 #include <cstdint>
-#include <functional>
+#include <initializer_list>
 #include <optional>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
 namespace rota {
 
-/// What a precondition or a utility may read of an allocation: its atoms, ascending by agent.
+/// The atoms of an allocation, ascending by agent: what a precondition or a utility reads of it.
 template <vocabulary V = runtime_vocabulary>
 using allocation_view = std::span<in<V> const>;
 
 /// U_p as a sum over agents: the utility of one agent on one task; an idle agent counts 0. `nullopt` forbids the pair.
 ///
-/// Must return finite numbers of magnitude at most `max_utility`; what it returns for a pair must not depend on the
-/// allocation. The optimum is found in polynomial time.
+/// Must return finite numbers of magnitude at most `max_utility`. The number of a pair must not depend on the allocation.
+/// The optimum is found in polynomial time.
 template <vocabulary V, class Beliefs>
-using additive_utility = std::function<std::optional<double>(typename V::agent, typename V::task, Beliefs const&)>;
+using additive_utility = detail::function<std::optional<double>(typename V::agent, typename V::task, Beliefs const&)>;
 
 /// U_p as a sum over agents and over pairs of agents: Σ_a alone(a, τ_a) + Σ_{a<b} together(a, τ_a, b, τ_b).
 ///
-/// Idle agents count 0, and so do pairs with one. An empty `alone` counts 0. `together` is asked with a < b. The optimum is
-/// found by branch and bound, with bounds that need no help.
+/// Idle agents count 0, and so do pairs with an idle agent. An empty `alone` counts 0. `together` is called with a < b. The
+/// optimum is found by branch and bound; the bounds need no help from the user.
 template <vocabulary V, class Beliefs>
 struct pairwise_utility {
   additive_utility<V, Beliefs> alone;
-  std::function<double(typename V::agent, typename V::task, typename V::agent, typename V::task, Beliefs const&)>
+  detail::function<double(typename V::agent, typename V::task, typename V::agent, typename V::task, Beliefs const&)>
       together;
 };
 
 /// U_p as any function of the beliefs and a complete allocation: a black box, which a search can only try out.
 ///
-/// `bound`, if given, must be at least the value of every complete allocation that extends the given partial one by
-/// tasks for the undecided agents (the others are decided, idle if they have no atom); it lets the search prune. A bound
-/// that was seen to be too low is reported (`solution::lie`).
-/// `kind`, if given: agents of one kind that may do the same tasks are interchangeable. No value changes when two of them
-/// swap what they do; of such allocations one is tried.
+/// `bound` is optional. It must be at least the value of every complete allocation that extends the given partial one by
+/// tasks for the undecided agents; decided agents without an atom are idle. A search uses it to prune, and reports a bound
+/// that it saw to be too low (`solution::lie`).
+/// `kind` is optional. Agents of one kind that may do the same tasks are interchangeable: swapping what two of them do must
+/// not change the value. Of allocations equal up to such swaps, only one is evaluated.
 template <vocabulary V, class Beliefs>
 struct general_utility {
-  std::function<double(Beliefs const&, allocation_view<V>)> value;
-  std::function<double(Beliefs const&, allocation_view<V>, std::span<typename V::agent const> undecided)> bound{};
-  std::function<std::uint64_t(Beliefs const&, typename V::agent)> kind{};
+  detail::function<double(Beliefs const&, allocation_view<V>)> value;
+  detail::function<double(Beliefs const&, allocation_view<V>, std::span<typename V::agent const> undecided)> bound{};
+  detail::function<std::uint64_t(Beliefs const&, typename V::agent)> kind{};
 };
 
-/// A part of U_p: the priorities that the roles of the agents give to their tasks, summed up.
+/// A part of U_p: the sum of the priorities that the agents' roles give to their tasks.
 struct role_priorities {
   friend bool operator==(role_priorities, role_priorities) = default;
 };
 
-/// A part of U_p: how many atoms the allocation shares with the current one. Weighted, a bonus for staying.
+/// A part of U_p: how many atoms the allocation shares with the running one. Weighted, a bonus for staying.
 struct similarity {
   friend bool operator==(similarity, similarity) = default;
 };
 
+namespace detail {
+
+/// The form of utility that a callable is, by its signature; void for none or several.
+template <class F, vocabulary V, class Beliefs>
+struct form_of {
+  using agent = typename V::agent;
+  using task = typename V::task;
+  static constexpr bool additive = fits<F, std::optional<double>(agent, task, Beliefs const&)>;
+  static constexpr bool pairwise = fits<F, double(agent, task, agent, task, Beliefs const&)>;
+  static constexpr bool general = fits<F, double(Beliefs const&, allocation_view<V>)>;
+  static constexpr bool unique = int{additive} + int{pairwise} + int{general} == 1;
+};
+
+template <class T, class Variant>
+inline constexpr bool is_form = false;
+template <class T, class... Forms>
+inline constexpr bool is_form<T, std::variant<Forms...>> = (std::is_same_v<T, Forms> || ...);
+
+/// A form as it is, or the one that a plain callable fits.
+template <vocabulary V, class Beliefs, class Variant, class F>
+[[nodiscard]] Variant to_form(F&& f) {
+  using plain = std::decay_t<F>;
+  if constexpr (is_form<plain, Variant>) {
+    return Variant(std::forward<F>(f));
+  } else {
+    using form = form_of<plain, V, Beliefs>;
+    static_assert(
+        form::unique,
+        "a utility is a callable `double or std::optional<double> (agent, task, Beliefs const&)`, "
+        "`double (agent, task, agent, task, Beliefs const&)` or `double (Beliefs const&, allocation_view<V>)`");
+    if constexpr (!form::unique) {
+      return {};
+    } else if constexpr (form::additive) {
+      return additive_utility<V, Beliefs>(std::forward<F>(f));
+    } else if constexpr (form::pairwise) {
+      return pairwise_utility<V, Beliefs>{{}, std::forward<F>(f)};
+    } else {
+      return general_utility<V, Beliefs>{std::forward<F>(f)};
+    }
+  }
+}
+
+/// Callables, fitting or not, and the forms of a utility.
+template <class F, class Self>
+concept made_into =
+    !std::same_as<std::remove_cvref_t<F>, Self> &&
+    (std::is_class_v<std::remove_cvref_t<F>> || std::is_function_v<std::remove_pointer_t<std::decay_t<F>>>);
+
+}  // namespace detail
+
+/// One part of a weighted sum, without its weight.
 template <vocabulary V, class Beliefs>
-using utility_part = std::variant<additive_utility<V, Beliefs>, pairwise_utility<V, Beliefs>,
-                                  general_utility<V, Beliefs>, role_priorities, similarity>;
+class utility_part {
+public:
+  using form_type = std::variant<additive_utility<V, Beliefs>, pairwise_utility<V, Beliefs>,
+                                 general_utility<V, Beliefs>, role_priorities, similarity>;
+
+  utility_part() = default;
+  /// One of the forms, or a callable with the signature of one.
+  template <detail::made_into<utility_part> F>
+  utility_part(F&& f) : form_(detail::to_form<V, Beliefs, form_type>(std::forward<F>(f))) {}
+
+  [[nodiscard]] form_type const& form() const noexcept { return form_; }
+
+private:
+  form_type form_;
+};
 
 /// One part of a weighted sum. Each number that the part returns is multiplied by the weight before it is counted.
 template <vocabulary V, class Beliefs>
@@ -72,51 +139,27 @@ struct weighted_part {
 template <vocabulary V, class Beliefs>
 using weighted_sum = std::vector<weighted_part<V, Beliefs>>;
 
+/// U_p: what an allocation is worth to a plan. Additive, pairwise, general, or a weighted sum of these.
+///
+/// A default-constructed one is missing: `plan::make` refuses it.
 template <vocabulary V, class Beliefs>
-using utility = std::variant<additive_utility<V, Beliefs>, pairwise_utility<V, Beliefs>, general_utility<V, Beliefs>,
-                             weighted_sum<V, Beliefs>>;
+class utility {
+public:
+  using form_type = std::variant<additive_utility<V, Beliefs>, pairwise_utility<V, Beliefs>,
+                                 general_utility<V, Beliefs>, weighted_sum<V, Beliefs>>;
 
-/// Calls f(weight, part) for each part of U_p; what is no sum has one part of weight 1.
-template <vocabulary V, class Beliefs, class F>
-void for_each_part(utility<V, Beliefs> const& u, F&& f) {
-  std::visit(
-      [&](auto const& whole) {
-        if constexpr (requires { whole.begin()->weight; }) {
-          for (auto const& [weight, part] : whole) std::visit([&, w = weight](auto const& x) { f(w, x); }, part);
-        } else {
-          f(1.0, whole);
-        }
-      },
-      u);
-}
+  utility() = default;
+  /// One of the forms, or a callable with the signature of one: additive, pairwise (its `together`) or general (its
+  /// `value`).
+  template <detail::made_into<utility> F>
+  utility(F&& f) : form_(detail::to_form<V, Beliefs, form_type>(std::forward<F>(f))) {}
+  /// A weighted sum: `{{0.7, nearest}, {0.3, rota::role_priorities{}}}`.
+  utility(std::initializer_list<weighted_part<V, Beliefs>> parts) : form_(weighted_sum<V, Beliefs>(parts)) {}
 
-/// Whether there is anything to call in every part, and something at all.
-template <vocabulary V, class Beliefs>
-[[nodiscard]] bool callable(utility<V, Beliefs> const& u) {
-  bool any = false;
-  bool all = true;
-  for_each_part<V, Beliefs>(u, [&](double, auto const& part) {
-    any = true;
-    if constexpr (requires { part.value; }) {
-      all &= static_cast<bool>(part.value);
-    } else if constexpr (requires { part.together; }) {
-      all &= static_cast<bool>(part.together);
-    } else if constexpr (requires { static_cast<bool>(part); }) {
-      all &= static_cast<bool>(part);
-    }
-  });
-  return any && all;
-}
+  [[nodiscard]] form_type const& form() const noexcept { return form_; }
 
-/// Neither NaN nor infinite. (The standard's is in `<cmath>`, which costs two thirds of `<vector>` to include.)
-[[nodiscard]] constexpr bool is_finite(double x) noexcept { return x - x == 0; }
-
-/// Whether every weight is a finite number.
-template <vocabulary V, class Beliefs>
-[[nodiscard]] bool weights_are_finite(utility<V, Beliefs> const& u) {
-  bool all = true;
-  for_each_part<V, Beliefs>(u, [&](double weight, auto const&) { all &= is_finite(weight); });
-  return all;
-}
+private:
+  form_type form_;
+};
 
 }  // namespace rota

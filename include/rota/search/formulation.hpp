@@ -225,7 +225,8 @@ private:
 
   /// What all parts of U_p say about one atom.
   std::optional<std::int64_t> rate(in<V> const& x) {
-    if (auto const* alone = std::get_if<additive_utility<V, Beliefs>>(&plan_.utility())) {  // the usual case, at once
+    if (auto const* alone =
+            std::get_if<additive_utility<V, Beliefs>>(&plan_.utility().form())) {  // the usual case, at once
       auto const value = guarded([&] { return (*alone)(x.agent, x.task, problem_.beliefs); });
       if (value && *value)
         if (auto const term = quantise(**value)) return term.value().units;

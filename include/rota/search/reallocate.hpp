@@ -77,14 +77,6 @@ template <vocabulary V, class Beliefs>
   return best;
 }
 
-/// What a valid current allocation must be beaten by.
-template <vocabulary V>
-[[nodiscard]] fixed_utility margin_over(standing<V> const& now, hysteresis const& h) {
-  auto margin = margin_of(h.absolute.value_or(now.hysteresis));
-  double const u = to_double(now.utility);
-  return checked_add(margin, margin_of(h.relative * (u < 0 ? -u : u))) ? margin : margin_of(2 * max_utility);
-}
-
 }  // namespace detail
 
 /// As `reallocate` below, where the best is known: what `best_allocation` found with `current` as `problem::current`.
@@ -102,7 +94,8 @@ template <vocabulary V, class Beliefs>
   next.lie = best ? std::move(best->lie) : best.error().lie;
   if (now && best) next.gain = to_double({best->objective.units - now->utility.units});
 
-  if (now && (!best || !beats(best->objective, now->utility, detail::margin_over(*now, h)))) {
+  if (now &&
+      (!best || !detail::beats(best->objective, now->utility, detail::margin_of(h, now->hysteresis, now->utility)))) {
     next.atoms = current;
     next.plan = now->plan;
     next.utility = to_double(now->utility);

@@ -45,10 +45,18 @@ to_plan(plan const& p, F const& make_utility, precondition<runtime_vocabulary, B
   auto made = rota::plan<runtime_vocabulary, Beliefs>::make(std::move(d));
   if (made) return *std::move(made);
   using kind = plan_defect<runtime_vocabulary>::kind;
-  auto const reason = made.error().what == kind::repeated_task     ? "two entry points have one id"
-                      : made.error().what == kind::no_task         ? "no entry point"
-                      : made.error().what == kind::missing_utility ? "the factory gave no utility"
-                                                                   : "the utility threshold is negative or not finite";
+  auto const reason = [&]() -> std::string {
+    switch (made.error().what) {
+    case kind::repeated_task: return "two entry points have one id";
+    case kind::no_task: return "no entry point";
+    case kind::missing_utility: return "the factory gave no utility";
+    case kind::weight_not_finite: return "the factory gave a weight that is not finite";
+    case kind::threshold_not_finite: return "the utility threshold is negative or not finite";
+    case kind::empty_cardinality: return "an entry point has a minimum cardinality above its maximum";
+    case kind::empty_team_size: return "the plan has a minimum cardinality above its maximum";
+    }
+    return "";
+  }();
   return refused{conversion_defect{p.id, reason}};
 }
 

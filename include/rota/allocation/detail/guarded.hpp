@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace rota {
+namespace rota::detail {
 
 /// f(), or `nullopt` if it threw. Where exceptions are switched off it is just f().
 ///
@@ -22,4 +22,4 @@ template <class F>
 #endif
 }
 
-}  // namespace rota
+}  // namespace rota::detail
