@@ -32,7 +32,7 @@ template <ordered_atom Atom>
     std::size_t index;
     sign value;
   };
-  std::vector<mention> mentions;
+  small_vector<mention, 8> mentions;
   for (std::size_t i = 0; i < events.size(); ++i)
     for (auto const& x : events[i]) mentions.push_back({x.atom, i, x.value});
   std::sort(mentions.begin(), mentions.end(),

@@ -2,8 +2,8 @@
 
 #include <rota/core/assert.hpp>
 
+#include <optional>
 #include <utility>
-#include <variant>
 
 namespace rota {
 
@@ -25,22 +25,20 @@ public:
   using value_type = T;
   using refusal_type = Refusal;
 
-  constexpr result(T value) : state_{std::in_place_index<0>, std::move(value)} {}
-  constexpr result(refused<Refusal> r) : state_{std::in_place_index<1>, std::move(r.why)} {}
+  constexpr result(T value) : value_(std::move(value)) {}
+  constexpr result(refused<Refusal> r) : refusal_(std::move(r.why)) {}
 
-  [[nodiscard]] constexpr bool has_value() const noexcept { return state_.index() == 0; }
+  [[nodiscard]] constexpr bool has_value() const noexcept { return value_.has_value(); }
   constexpr explicit operator bool() const noexcept { return has_value(); }
-
-  // get, not get_if: for g++ 12 the address of a temporary is no constant, so `*f()` would be no constant expression.
 
   /// @pre `has_value()`
   [[nodiscard]] constexpr T const& value() const& noexcept {
     ROTA_ASSERT(has_value());
-    return std::get<0>(state_);
+    return *value_;
   }
   [[nodiscard]] constexpr T& value() & noexcept {
     ROTA_ASSERT(has_value());
-    return std::get<0>(state_);
+    return *value_;
   }
   [[nodiscard]] constexpr T&& value() && noexcept { return std::move(value()); }
 
@@ -53,13 +51,15 @@ public:
   /// @pre `!has_value()`
   [[nodiscard]] constexpr Refusal const& error() const noexcept {
     ROTA_ASSERT(!has_value());
-    return std::get<1>(state_);
+    return *refusal_;
   }
 
   friend bool operator==(result const&, result const&) = default;
 
 private:
-  std::variant<T, Refusal> state_;
+  // Exactly one holds a value. A std::variant would be smaller, but g++ 11 and clang 16 refuse it in constant expressions.
+  std::optional<T> value_;
+  std::optional<Refusal> refusal_;
 };
 
 }  // namespace rota

@@ -83,7 +83,7 @@ private:
   static constexpr std::uint32_t clip(std::uint64_t n) {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(n, cardinality::unbounded - 1));
   }
-  bool fail(no_plan_reason why, std::size_t count, cardinality bounds) {
+  bool fail(no_plan_reason why, std::uint64_t count, cardinality bounds) {
     refusal_.why = why;
     refusal_.count = count;
     refusal_.bounds = bounds;

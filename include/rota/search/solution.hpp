@@ -79,7 +79,7 @@ struct plan_refusal {
   no_plan_reason why{};
   typename V::agent agent{};
   typename V::task task{};
-  std::size_t count = 0;
+  std::uint64_t count = 0;
   cardinality bounds{};
   utility_fault fault{};
   double value = 0;

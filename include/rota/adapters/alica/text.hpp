@@ -11,6 +11,11 @@
 #include <string_view>
 #include <vector>
 
+#ifndef __cpp_lib_to_chars
+#include <locale>
+#include <sstream>
+#endif
+
 namespace rota::alica::detail {
 
 /// The offset of the first byte that is no UTF-8 (overlong forms, surrogates, NUL included), or nothing. O(n).
@@ -68,8 +73,15 @@ private:
 /// A finite number, nothing before or after it.
 [[nodiscard]] inline std::optional<double> parse_real(std::string_view s) {
   double x = 0;
+#ifdef __cpp_lib_to_chars
   auto const [end, error] = std::from_chars(s.data(), s.data() + s.size(), x);
   if (s.empty() || error != std::errc{} || end != s.data() + s.size() || !std::isfinite(x)) return std::nullopt;
+#else  // libc++ 19 has no from_chars of double; this refuses subnormal numbers besides
+  if (s.empty() || s.find_first_not_of("-.0123456789eE") != std::string_view::npos) return std::nullopt;
+  std::istringstream in{std::string(s)};
+  in.imbue(std::locale::classic());
+  if (!(in >> x) || in.peek() != std::istringstream::traits_type::eof() || !std::isfinite(x)) return std::nullopt;
+#endif
   return x;
 }
 

@@ -9,12 +9,14 @@
 /// The loops of kernels.hpp in lanes of four numbers, for processors with AVX2. No intrinsics: the vector types are an
 /// extension that g++ and clang share. Where there is none, ROTA_HAS_LANES is not defined.
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__x86_64__) && defined(__has_builtin)
+#if __has_builtin(__builtin_shufflevector)  // g++ 11 has the vectors, but not the shuffle
 #define ROTA_HAS_LANES
 #if defined(__AVX2__)
 #define ROTA_WIDE inline
 #else
 #define ROTA_WIDE [[gnu::target("avx2")]] inline
+#endif
 #endif
 #endif
 

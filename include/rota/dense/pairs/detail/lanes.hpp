@@ -6,14 +6,18 @@
 #include <limits>
 
 // Compilers with GNU vector extensions get kernels on vectors, others loops; on x86-64 copies for AVX2 besides.
-#if defined(__GNUC__)
+// g++ 11 has the vectors, but not the shuffle.
+#ifdef __has_builtin
+#if __has_builtin(__builtin_shufflevector)
 #define ROTA_LANES_VECTORS 1
 #define ROTA_LANES_INLINE [[gnu::always_inline]] inline
-#else
+#endif
+#endif
+#ifndef ROTA_LANES_VECTORS
 #define ROTA_LANES_VECTORS 0
 #define ROTA_LANES_INLINE inline
 #endif
-#if defined(__GNUC__) && defined(__x86_64__)
+#if ROTA_LANES_VECTORS && defined(__x86_64__)
 #define ROTA_LANES_AVX2 1
 #else
 #define ROTA_LANES_AVX2 0

@@ -93,7 +93,7 @@ public:
   /// The state of a node at depth d with these counts. Good until the next call.
   state& at(std::size_t d, packed_counts placed) {
     std::uint64_t const mixed = (placed + d * 0x9e3779b97f4a7c15U) * 0xd1342543de82ef95U;
-    state& s = states_[mixed >> shift_];
+    state& s = states_[static_cast<std::size_t>(mixed >> shift_)];
     if (s.key != placed || s.stamp != (epoch_ << 7) + d) [[unlikely]]
       make(s, d, placed);
     return s;
