@@ -85,7 +85,7 @@ struct playbook {
     others += attack ? 0 : 1;
   }
   return [homes = std::move(homes), w](names::agent a, names::task t, perceived const& seen) -> std::optional<double> {
-    point const at = seen.robots[static_cast<std::size_t>(a.value - 1)];
+    point const at = seen.robots[a.value - 1];
     for (auto const& [task, home] : homes)
       if (task == t) return home ? pay(distance(at, *home), w.other) : pay(distance(at, seen.ball), 1);
     return std::nullopt;

@@ -54,7 +54,7 @@ inline rc::Seq<std::vector<int>> smaller_values(std::vector<int> const& v) {
       auto kind = source.next() % (total == 0 ? kinds : total);
       if (total != 0) {
         auto const point = kind;
-        for (kind = 0; up_to[static_cast<std::size_t>(kind)] <= point;) ++kind;
+        for (kind = 0; up_to[kind] <= point;) ++kind;
       }
       x = low + static_cast<int>(kind);
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rota/dense/buffer.hpp>
+#include <rota/dense/detail/size.hpp>
 #include <rota/dense/pairs/detail/suffix_bounds.hpp>
 
 #include <algorithm>
@@ -93,7 +94,7 @@ public:
   /// The state of a node at depth d with these counts. Good until the next call.
   state& at(std::size_t d, packed_counts placed) {
     std::uint64_t const mixed = (placed + d * 0x9e3779b97f4a7c15U) * 0xd1342543de82ef95U;
-    state& s = states_[static_cast<std::size_t>(mixed >> shift_)];
+    state& s = states_[detail::to_size(mixed >> shift_)];
     if (s.key != placed || s.stamp != (epoch_ << 7) + d) [[unlikely]]
       make(s, d, placed);
     return s;
@@ -217,7 +218,7 @@ private:
     std::size_t valid = 0;
     for (std::size_t f = 0; f < finals_.size(); ++f) {
       valid_[valid] = static_cast<std::uint32_t>(f);
-      valid += space_->below(placed, finals_[f]) ? 1 : 0;
+      valid += space_->below(placed, finals_[f]) ? 1U : 0U;
     }
     std::uint16_t const* const numbers = suffix_->numbers(left);
     std::size_t const start = space_->index(placed);
