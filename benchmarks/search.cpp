@@ -182,11 +182,12 @@ void reallocate_changing(benchmark::State& state, size s, bool additive) {
   rota::workspace space;
   auto const current = best_allocation(problem{type, members, views[0]}, space)->atoms;
   for (beliefs const& b : views) {
-    auto const next = reallocate(problem{type, members, b}, current, {}, space);
+    auto const next = reallocate(problem{type, members, b}.running(current), {}, space);
     check(*apply(next.event, current) == next.atoms, "reallocate: the event leads there");
     check(near(next.utility, additive ? hungarian(b, s) : enumerate(b, s, false)), "reallocate: and that is best");
   }
-  rotate(state, views, [&](beliefs const& b) { return reallocate(problem{type, members, b}, current, {}, space); });
+  rotate(state, views,
+         [&](beliefs const& b) { return reallocate(problem{type, members, b}.running(current), {}, space); });
 }
 
 BENCHMARK_CAPTURE(best, , size{5, 3}, true)->Name("best_allocation/additive/5x3");

@@ -50,9 +50,9 @@ int main() {
 
   // The ball moves a little: hysteresis keeps the allocation. It moves a lot: the event says what changes.
   world.distance_to_ball[right] = 1.9;
-  auto const same = rota::reallocate(here, best->atoms, {.absolute = 0.5}, space);
+  auto const same = rota::reallocate(here.running(best->atoms), {.absolute = 0.5}, space);
   world.distance_to_ball[right] = 0.5;
-  auto const next = rota::reallocate(here, best->atoms, {.absolute = 0.5}, space);
+  auto const next = rota::reallocate(here.running(best->atoms), {.absolute = 0.5}, space);
   std::printf("moved a little: %zu changes; moved a lot: %zu changes\n", same.event.size(), next.event.size());
 
   // Why not the keeper? Every violated clause has its witness.

@@ -111,7 +111,7 @@ std::vector<std::string> idle_agents(question const& q, allocation_atoms<vocabul
 
 /// What a running team would do about it.
 named_decision decide(question const& q, solution<vocabulary> const& s) {
-  auto const r = reallocate<vocabulary, no_beliefs>(q.problem, q.current, hysteresis{}, s);
+  auto const r = reallocate<vocabulary, no_beliefs>(q.problem, hysteresis{}, s);
   auto const gain = r.gain ? number(*r.gain) : std::string();
   switch (r.reason) {
   case reallocation_reason::first: return {false, "the team has no allocation yet"};

@@ -351,7 +351,7 @@ TEST(reallocate, passes_on_what_a_search_complains_of) {
   team_of team(5);
   auto const ask = [&] {
     auto const type = rota::plan_type<names>::make({}, {plan_t::make(d).value()}).value();
-    return reallocate(rota::problem{type, team.members}, {}, {}, team.space, {.audit = true});
+    return reallocate(rota::problem{type, team.members}, {}, team.space, {.audit = true});
   };
   auto const some = ask();
   EXPECT_TRUE(some.plan);
@@ -482,7 +482,7 @@ TEST(best_allocation, branch_and_bound_in_a_steady_loop_allocates_nothing) {
   rota::allocation_atoms<names> runs;
   auto const tick = [&](double u) {
     more = u;
-    auto const next = reallocate(rota::problem{type, team.members}, runs, {}, team.space);
+    auto const next = reallocate(rota::problem{type, team.members}.running(runs), {}, team.space);
     EXPECT_GT(next.work.nodes, 0u);
     runs = next.atoms;
   };

@@ -8,6 +8,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace reallocation_test {
@@ -58,6 +59,7 @@ TEST(reallocate, keeps_what_is_valid_and_good_enough) {
   int entry = 0;
   int costly = 0;
   int relative = 0;
+  int violated = 0;
   rota::workspace work;
   EXPECT_TRUE(rc::check([&] {
     dice d(*any_seed().as("seed"));
@@ -91,13 +93,21 @@ TEST(reallocate, keeps_what_is_valid_and_good_enough) {
       raw.current = current;
       auto const expected = expect(raw, h);
       auto const before = to_atoms(current);
-      auto const got = reallocate(problem, before, h, work);
+      auto const ask = problem.running(before);
+      auto const got = reallocate(ask, h, work);
       RC_ASSERT(got.reason == expected.why);
       RC_ASSERT(to_facts(got.atoms) == expected.atoms);
       RC_ASSERT(got.optimal);
-      auto known = problem;
-      known.current = before.atoms();
-      auto same = reallocate(problem, before, h, best_allocation(known, work));
+      // It says why: what the running allocation violates, and why no plan has another.
+      auto const* const ran = reading::find_plan(raw, current.empty() ? -1 : current.begin()->plan);
+      bool const broken = !current.empty() && (ran == nullptr || !reading::judge(raw, *ran, current, true).valid());
+      RC_ASSERT(got.violated.has_value() == broken);
+      if (broken && ran != nullptr)
+        RC_ASSERT(*got.violated ==
+                  *validate(ask, *b.type.find(names::plan(ran->id)), before, rota::plan_phase::running).begin());
+      RC_ASSERT(got.refusals.size() == (best_allocation(ask, work) ? 0 : raw.plans.size()));
+      violated += broken;
+      auto same = reallocate(ask, h, best_allocation(ask, work));
       same.work = got.work;
       RC_ASSERT(same == got);
       RC_ASSERT(got.event == rota::difference(before, got.atoms));
@@ -112,7 +122,7 @@ TEST(reallocate, keeps_what_is_valid_and_good_enough) {
         entry += q->entry_only && !reading::judge(raw, *q, expected.atoms, false).valid();
       }
       // Nothing left to do, except where a precondition no longer counts that did on entry.
-      auto const again = reallocate(problem, got.atoms, h, work);
+      auto const again = reallocate(problem.running(got.atoms), h, work);
       bool const entered = got.plan && reading::find_plan(raw, static_cast<int>(*got.plan))->entry_only;
       if (!entered && !restless(raw)) RC_ASSERT(again.event.empty());
       ++cases;
@@ -125,6 +135,27 @@ TEST(reallocate, keeps_what_is_valid_and_good_enough) {
   EXPECT_GE(entry, 10);
   EXPECT_GE(costly * 100, cases);
   EXPECT_GE(relative, 20);
+  EXPECT_GE(violated * 100, cases * 10);
+}
+
+TEST(reallocate, keeps_what_is_valid_for_ever_under_an_infinite_hysteresis) {
+  raw_problem raw;
+  raw.members = raw.participants = {0};
+  raw_plan p;
+  p.tasks = {{0, 0, 1}};
+  p.u[0][0] = 5;
+  raw.plans = {p};
+  built const b(raw);
+  rota::problem const idle{b.type, b.team, b.beliefs};
+  rota::workspace work;
+  auto const infinite = std::numeric_limits<double>::infinity();
+  for (rota::hysteresis const h : {rota::hysteresis{.relative = infinite}, rota::hysteresis{.absolute = infinite}}) {
+    auto const kept = reallocate(idle, h, work);  // ∅ is worth 0
+    EXPECT_EQ(kept.reason, reason::kept_hysteresis);
+    EXPECT_TRUE(kept.event.empty());
+    EXPECT_EQ(kept.gain, 5);
+  }
+  EXPECT_EQ(reallocate(idle, {}, work).reason, reason::first);
 }
 
 TEST(reallocate, a_steady_loop_allocates_nothing) {
@@ -140,12 +171,12 @@ TEST(reallocate, a_steady_loop_allocates_nothing) {
   built const b(raw);
   rota::problem const problem{b.type, b.team, b.beliefs};
   rota::workspace work;
-  auto const current = reallocate(problem, atoms_t{}, {}, work).atoms;
+  auto const current = reallocate(problem, {}, work).atoms;
   auto const before = rota_test::allocation_count();
   for (int i = 0; i < 100; ++i) {
-    auto const next = reallocate(problem, current, {}, work);
+    auto const next = reallocate(problem.running(current), {}, work);
     ASSERT_TRUE(next.event.empty());
-    auto const fresh = reallocate(problem, atoms_t{}, {}, work);
+    auto const fresh = reallocate(problem, {}, work);
     ASSERT_EQ(fresh.event.size(), current.size());
   }
   EXPECT_EQ(rota_test::allocation_count() - before, 0u);
@@ -166,21 +197,21 @@ TEST(reallocate, a_spent_budget_keeps_a_valid_allocation_and_says_so) {
   built const b(raw);
   rota::problem const problem{b.type, b.team, b.beliefs};
   rota::workspace work;
-  auto const best = reallocate(problem, atoms_t{}, {}, work);
+  auto const best = reallocate(problem, {}, work);
   ASSERT_TRUE(best.optimal);
-  auto const kept = reallocate(problem, best.atoms, {}, work, {10});
+  auto const kept = reallocate(problem.running(best.atoms), {}, work, {10});
   EXPECT_EQ(kept.reason, reason::kept_unproved);
   EXPECT_FALSE(kept.optimal);
   EXPECT_TRUE(kept.event.empty());
   EXPECT_LE(kept.work.nodes, 10u);
   atoms_t const invalid{{names::agent(0), names::plan(1), names::task(0)}};
-  auto const replaced = reallocate(problem, invalid, {}, work, {0});
+  auto const replaced = reallocate(problem.running(invalid), {}, work, {0});
   EXPECT_EQ(replaced.reason, reason::current_invalid);
   EXPECT_FALSE(replaced.optimal);
   EXPECT_TRUE(replaced.plan);
   raw.plans[0].pre = truth::never;
   built const c(raw);
-  auto const stopped = reallocate(rota::problem{c.type, c.team, c.beliefs}, invalid, {}, work, {3});
+  auto const stopped = reallocate(rota::problem{c.type, c.team, c.beliefs}.running(invalid), {}, work, {3});
   EXPECT_EQ(stopped.reason, reason::search_incomplete);
   EXPECT_TRUE(stopped.atoms.empty());
   EXPECT_FALSE(stopped.plan);

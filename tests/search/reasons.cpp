@@ -174,7 +174,7 @@ TEST(no_allocation, utilities_too_great_for_so_many_tasks_prove_nothing) {
   EXPECT_EQ(none.error().plans[0].fault, rota::utility_fault::out_of_range);
   EXPECT_FALSE(rota::describe(none.error().plans[0]).empty());
   EXPECT_FALSE(none.error().proved());
-  auto const kept = reallocate(hopeless, rota::allocation_atoms<V>{}, {}, work);
+  auto const kept = reallocate(hopeless, {}, work);
   EXPECT_EQ(kept.reason, rota::reallocation_reason::kept_unproved);
   EXPECT_FALSE(kept.optimal);
 

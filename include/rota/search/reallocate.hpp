@@ -6,22 +6,23 @@
 #include <rota/search/best_allocation.hpp>
 
 #include <optional>
+#include <utility>
 
 namespace rota {
 
 /// Why a reallocation ended as it did.
 enum class reallocation_reason : unsigned char {
-  first,                ///< there was no allocation (C = ∅); the best is adopted
-  adopted_better,       ///< the best beats the current one by more than the margin
-  current_invalid,      ///< the current one is not valid (any more); the best is adopted
-  kept_optimal,         ///< nothing is better than the current one, proved
-  kept_hysteresis,      ///< something is better, by no more than the margin and what the changes cost
-  kept_unproved,        ///< nothing found beats the current one, but not all was searched: see `solution::optimal`
-  no_valid_allocation,  ///< proved; the allocation becomes ∅
-  search_incomplete     ///< the current one is not valid, and none was found, but not all was searched; becomes ∅
+  first,                ///< nothing was running; the best allocation is adopted
+  adopted_better,       ///< the best allocation beats the running one by more than the hysteresis
+  current_invalid,      ///< the running allocation is not valid any more; the best one is adopted
+  kept_optimal,         ///< the running allocation stays; proved: nothing is better
+  kept_hysteresis,      ///< the running allocation stays; another is better, but not by more than the hysteresis
+  kept_unproved,        ///< the running allocation stays; nothing better was found, but something better may exist
+  no_valid_allocation,  ///< proved: no allocation is valid; the allocation becomes ∅
+  search_incomplete     ///< the running allocation is not valid and no other was found, but one may exist; it becomes ∅
 };
 
-/// What to do now: `event` leads from the current allocation to `atoms`.
+/// What to do now: `event` leads from the running allocation, `problem::current`, to `atoms`.
 template <vocabulary V = runtime_vocabulary>
 struct reallocation {
   rota::event<in<V>> event;
@@ -29,12 +30,14 @@ struct reallocation {
   std::optional<typename V::plan> plan{};  ///< of `atoms`; none if there is no valid allocation
   double utility = 0;                      ///< of `atoms`
   reallocation_reason reason{};
-  std::optional<double> gain{};  ///< U(best) less change costs − U(current), if both are valid
-  std::size_t changes = 0;       ///< participants who do something else from now on
-  bool optimal = false;          ///< no valid allocation is better than the best one found
-  double gap = 0;                ///< no valid allocation is better than the best one found by more than this
+  std::optional<double> gain{};  ///< U(best) less change costs − U(running), if both are valid
+  std::size_t changes = 0;       ///< how many participants do something else from now on
+  bool optimal = false;          ///< as `solution::optimal`, of the best allocation found
+  double gap = 0;                ///< proved: no valid allocation is better than the best one found by more than this
   search_work work{};
-  std::optional<utility_refusal<V>> ignored{};  ///< see `solution`; of all plans if there is no valid allocation
+  std::optional<violation<V>> violated{};       ///< the first violation of the running allocation, if it is not valid
+  small_vector<plan_refusal<V>, 2> refusals;    ///< if no valid allocation was found: why, one per plan
+  std::optional<utility_refusal<V>> ignored{};  ///< as in `solution` or `no_allocation`
   std::optional<bound_lie<V>> lie{};            ///< likewise
 
   friend bool operator==(reallocation const&, reallocation const&) = default;
@@ -42,66 +45,78 @@ struct reallocation {
 
 namespace detail {
 
-/// A valid current allocation: its plan and utility.
+/// The running allocation: its plan and utility if it is valid, otherwise what it violates first.
 template <vocabulary V>
 struct standing {
+  bool valid = false;
   typename V::plan plan{};
   fixed_utility utility{};
-  double hysteresis = 0;
+  double hysteresis = 0;  // the plan's own
+  std::optional<violation<V>> violated{};
 };
 
-/// What C is worth if it is valid for p; without a report.
+/// U_p of the running allocation if it is valid for p; otherwise `violated` is the first violation.
 template <vocabulary V, class Beliefs>
-[[nodiscard]] std::optional<fixed_utility> worth(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
-                                                 allocation_atoms<V> const& atoms, plan_phase phase) {
-  bool valid = true;
-  auto const value = judge(problem, p, atoms.atoms(), phase, [&](violation<V> const&) { valid = false; });
-  return valid ? value : std::nullopt;
+[[nodiscard]] standing<V> standing_for(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
+                                       plan_phase phase) {
+  standing<V> s;
+  s.plan = p.id();
+  s.hysteresis = p.hysteresis();
+  auto const total = judge(problem, p, problem.current, phase, [&](violation<V> const& v) {
+    if (!s.violated) s.violated = v;
+  });
+  s.valid = !s.violated;
+  if (s.valid) s.utility = *total;
+  return s;
 }
 
+/// C = ∅ names no plan: it stands as the best plan for which it is valid, without a hysteresis, and violates nothing.
 template <vocabulary V, class Beliefs>
-[[nodiscard]] std::optional<standing<V>> standing_of(problem<V, Beliefs> const& problem,
-                                                     allocation_atoms<V> const& current) {
-  if (!current.empty()) {
-    auto const* p = problem.type.find(current.begin()->plan);
-    if (p == nullptr) return std::nullopt;
-    auto const value = worth(problem, *p, current, plan_phase::running);
-    if (!value) return std::nullopt;
-    return standing<V>{p->id(), *value, p->hysteresis()};
+[[nodiscard]] standing<V> standing_of(problem<V, Beliefs> const& problem) {
+  if (!problem.current.empty()) {
+    auto const& first = problem.current.front();
+    auto const* const p = problem.type.find(first.plan);
+    if (p != nullptr) return standing_for(problem, *p, plan_phase::running);
+    standing<V> none;
+    none.violated = at<V>(clause::one_plan, first.plan, first);
+    return none;
   }
-  std::optional<standing<V>> best;
+  standing<V> best;
   for (plan<V, Beliefs> const& p : problem.type.plans()) {
-    auto const value = worth(problem, p, current, plan_phase::entering);
-    if (value && (!best || *value > best->utility)) best = standing<V>{p.id(), *value, 0};
+    auto const s = standing_for(problem, p, plan_phase::entering);
+    if (s.valid && (!best.valid || s.utility > best.utility)) best = s;
   }
+  best.hysteresis = 0;
   return best;
 }
 
 }  // namespace detail
 
-/// As `reallocate` below, where the best is known: what `best_allocation` found with `current` as `problem::current`.
+/// As `reallocate` below, where `best` is what `best_allocation` found for the same problem.
 template <vocabulary V, class Beliefs>
-[[nodiscard]] reallocation<V> reallocate(problem<V, Beliefs> const& problem, allocation_atoms<V> const& current,
-                                         hysteresis h, result<solution<V>, no_allocation<V>> best) {
+[[nodiscard]] reallocation<V> reallocate(problem<V, Beliefs> const& problem, hysteresis h,
+                                         result<solution<V>, no_allocation<V>> best) {
   reallocation<V> next;
-  auto here = problem;
-  here.current = current.atoms();
-  auto const now = detail::standing_of(here, current);
+  auto now = detail::standing_of(problem);
+  auto running = allocation_atoms<V>::from_ascending({problem.current.begin(), problem.current.end()});
   next.optimal = best ? best->optimal : best.error().proved();
   next.gap = best ? best->gap : 0;
   next.work = best ? best->work : best.error().work;
   next.ignored = best ? best->ignored : best.error().ignored;
   next.lie = best ? std::move(best->lie) : best.error().lie;
-  if (now && best) next.gain = to_double({best->objective.units - now->utility.units});
+  next.violated = std::move(now.violated);
+  if (!best) next.refusals = best.error().plans;
+  if (now.valid && best) next.gain = to_double({best->objective.units - now.utility.units});
 
-  if (now &&
-      (!best || !detail::beats(best->objective, now->utility, detail::margin_of(h, now->hysteresis, now->utility)))) {
-    next.atoms = current;
-    next.plan = now->plan;
-    next.utility = to_double(now->utility);
-    next.reason = best && best->exact > now->utility ? reallocation_reason::kept_hysteresis
-                  : next.optimal                     ? reallocation_reason::kept_optimal
-                                                     : reallocation_reason::kept_unproved;
+  bool const stays = now.valid && (!best || !detail::beats(best->objective, now.utility,
+                                                           detail::margin_of(h, now.hysteresis, now.utility)));
+  if (stays) {
+    next.atoms = std::move(running);
+    next.plan = now.plan;
+    next.utility = to_double(now.utility);
+    next.reason = best && best->exact > now.utility ? reallocation_reason::kept_hysteresis
+                  : next.optimal                    ? reallocation_reason::kept_optimal
+                                                    : reallocation_reason::kept_unproved;
     return next;
   }
   if (best) {
@@ -109,37 +124,34 @@ template <vocabulary V, class Beliefs>
     next.plan = best->plan;
     next.utility = best->utility;
     next.changes = best->changes;
-    next.reason = current.empty() ? reallocation_reason::first
-                  : now           ? reallocation_reason::adopted_better
+    next.reason = running.empty() ? reallocation_reason::first
+                  : now.valid     ? reallocation_reason::adopted_better
                                   : reallocation_reason::current_invalid;
   } else {
     next.reason = next.optimal ? reallocation_reason::no_valid_allocation : reallocation_reason::search_incomplete;
   }
-  next.event = difference(current, next.atoms);
+  next.event = difference(running, next.atoms);
   return next;
 }
 
-/// Decides whether to keep the current allocation, and if not, which one to adopt; under one's own beliefs only.
+/// Decides whether the running allocation, `problem::current`, stays, and if not, which one follows it. Reads one's own
+/// beliefs only.
 ///
-/// What is best is judged with `current` in the place of `problem::current`: less `problem::change_cost` for each participant
-/// that would do something else, and with a bonus for staying where U_p has a part `similarity`. The current one is kept
-/// iff it is valid and nothing beats it by more than h (see `hysteresis`); among equals nothing changes. C = ∅ names no
-/// plan, so none is running: it counts as the best plan for which it is valid, preconditions are asked as on entry, and the
-/// plan's own hysteresis is 0. Otherwise every plan that occurs in C is running, and `precondition_scope::entry_only` is not
-/// asked of it.
-/// Where no valid allocation exists the team has none: the event subtracts every atom. That is honest (each atom would
-/// claim a validity the agent does not believe in), and the next call with a satisfiable problem starts as `first`.
+/// It stays iff it is valid and no valid allocation beats it by more than h (see `hysteresis`), change costs deducted; so
+/// of equally good allocations the running one stays. With `problem::current` = ∅ nothing runs: ∅ counts as the best plan
+/// for which it is valid, preconditions are asked as on entry, and the plan's own hysteresis is 0. Otherwise every plan
+/// that occurs there is running, and `precondition_scope::entry_only` preconditions are not asked of it.
+/// Where no allocation is valid the team has none: the event subtracts every atom. (Each atom would claim a validity that
+/// the robot does not believe in.) The next call with a satisfiable problem starts as `first`.
 ///
-/// Laws: event = difference(current, atoms), so it is applicable at `current`. Calling again with `atoms` and unchanged
-/// beliefs gives the empty event, unless `atoms` entered a plan whose precondition is `entry_only`: then it may move on to
-/// an allocation that could not have been entered.
-/// Complexity: `best_allocation`, and one evaluation of the current allocation.
+/// Laws: event = difference(current, atoms), so it is applicable to the running allocation. Calling again with `atoms` as
+/// the running allocation and unchanged beliefs gives the empty event, unless `atoms` entered a plan whose precondition is
+/// `entry_only`: that one may move on to an allocation that could not have been entered.
+/// Complexity: that of `best_allocation`, and one evaluation of the running allocation.
 template <vocabulary V, class Beliefs>
-[[nodiscard]] reallocation<V> reallocate(problem<V, Beliefs> const& problem, allocation_atoms<V> const& current,
-                                         hysteresis h, workspace& work, search_budget budget = {}) {
-  auto here = problem;
-  here.current = current.atoms();
-  return reallocate(here, current, h, best_allocation(here, work, budget));
+[[nodiscard]] reallocation<V> reallocate(problem<V, Beliefs> const& problem, hysteresis h, workspace& work,
+                                         search_budget budget = {}) {
+  return reallocate(problem, h, best_allocation(problem, work, budget));
 }
 
 }  // namespace rota

@@ -182,7 +182,8 @@ public:
     }
     problem<V, Beliefs> p{pt, members, beliefs, t->believed.participants(), idle};
     p.change_cost = options_.change_cost;
-    auto next = reallocate(p, t->believed.atoms(), options_.hysteresis, space, budget);
+    p.current = t->believed.atoms().atoms();
+    auto next = reallocate(p, options_.hysteresis, space, budget);
     d.event = impose(*t, next.atoms);
     d.why = next.reason;
     d.utility = next.utility;

@@ -99,7 +99,7 @@ inline void play(stream& r, hash& h, std::size_t agents, std::size_t tasks, bool
   for (int tick = 0; tick < 8; ++tick) {
     rota::problem<vocabulary, beliefs> p{type, members, b};
     p.change_cost = 0.01;
-    auto const next = reallocate(p, current, {.relative = 0.03}, space, {.nodes = 20000});
+    auto const next = reallocate(p.running(current), {.relative = 0.03}, space, {.nodes = 20000});
     h.add(static_cast<std::uint64_t>(next.reason));
     h.add(static_cast<std::uint64_t>(next.utility * rota::fixed_utility::units_per_one));
     for (atom const& x : next.atoms) h.add(x.agent.value * 1000 + x.plan.value * 100 + x.task.value);
