@@ -3,10 +3,11 @@
 /// Random dense problems as plain numbers, and two oracles on them: enumeration, and GLPK's out-of-kilter method.
 /// Includes nothing of search/, so that it shares no code with what it judges.
 
-#include "allocation/small_world.hpp"
+#include "support/dice.hpp"
 
 #include <glpk.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -15,7 +16,8 @@
 
 namespace dense_world {
 
-using small_world::dice;
+using rota_test::any_seed;
+using rota_test::dice;
 
 /// What may be part of a random problem; `levels` different utilities, few of which make ties.
 struct flavour {

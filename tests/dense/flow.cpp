@@ -1,17 +1,19 @@
 // The additive solver against enumeration and GLPK: optimum, canonical choice, certificate; warm against cold; limits.
 #include "dense/dense_world.hpp"
+#include "dense/owned_instance.hpp"
 #include "support/allocation_counter.hpp"
 
 #include <rota/dense/flow/solver.hpp>
-#include <rota/dense/ties.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 namespace additive_test {
@@ -25,30 +27,6 @@ using rota::dense::row_index;
 using rota::dense::slot;
 using rota::dense::slot_bounds;
 using rota::dense::status;
-
-/// A problem as the solver wants it. Owns what the instance views.
-struct dense {
-  explicit dense(problem const& p) : part(p.part), agents(p.agents) {
-    for (auto const& u : p.utility) utility.push_back(u.value_or(rota::dense::absent));
-    for (auto const& [lower, upper] : p.bounds) bounds.push_back({lower, upper});
-  }
-  [[nodiscard]] instance view() const {
-    instance in{agents, utility, bounds};
-    in.taking_part = part;
-    return in;
-  }
-
-  std::vector<std::int64_t> utility;
-  std::vector<slot_bounds> bounds;
-  std::vector<unsigned char> part;
-  std::size_t agents;
-};
-
-std::vector<int> slots_of(flow_outcome const& found) {
-  std::vector<int> x;
-  for (auto const s : found.assignment) x.push_back(s == rota::dense::no_slot ? -1 : static_cast<int>(s));
-  return x;
-}
 
 /// The total of an assignment within the bounds, or nothing.
 std::optional<std::int64_t> valid_total(problem const& p, std::vector<int> const& x) {
@@ -120,7 +98,7 @@ struct shares {
 
 /// One problem against enumeration.
 void agree(problem const& p, flow_solver& solver, shares& s) {
-  dense const d(p);
+  owned_instance const d(p);
   auto const expected = enumerate(p);
   auto const got = solver.solve(d.view());
   ++s.cases;
@@ -143,7 +121,7 @@ TEST(flow_solver, is_what_enumeration_finds_first) {
     shares s;
     flow_solver solver;
     EXPECT_TRUE(rc::check([&] {
-      dice d(*small_world::any_seed().as("seed"));
+      dice d(*any_seed().as("seed"));
       agree(random_problem(d, {.agents = 6, .slots = 4, .levels = levels}), solver, s);
     }));
     EXPECT_GE(s.feasible * 100, s.cases * 30);
@@ -155,7 +133,7 @@ TEST(flow_solver, is_what_enumeration_finds_first) {
 
 /// One problem too large to enumerate, against GLPK.
 void agree_with_glpk(problem const& p, flow_solver& solver, shares& s) {
-  dense const d(p);
+  owned_instance const d(p);
   auto const expected = greatest_by_glpk(p);
   auto const got = solver.solve(d.view());
   ++s.cases;
@@ -175,7 +153,7 @@ TEST(flow_solver, is_as_good_as_glpk) {
     shares s;
     flow_solver solver;
     EXPECT_TRUE(rc::check([&] {
-      dice d(*small_world::any_seed().as("seed"));
+      dice d(*any_seed().as("seed"));
       agree_with_glpk(random_problem(d, f), solver, s);
     }));
     EXPECT_GE(s.feasible * 100, s.cases * 20) << f.agents;
@@ -189,13 +167,13 @@ TEST(flow_solver, warm_is_cold) {
     shares s;
     flow_solver warm;
     EXPECT_TRUE(rc::check([&] {
-      dice d(*small_world::any_seed().as("seed"));
+      dice d(*any_seed().as("seed"));
       auto p = random_problem(d, f);
-      (void)warm.solve(dense(p).view());
+      (void)warm.solve(owned_instance(p).view());
       std::vector<row_index> changed;
       for (int step = 0; step < 8; ++step) {
         mutate(d, f, p, changed);
-        dense const now(p);
+        owned_instance const now(p);
         auto const got = warm.resolve(now.view(), changed);
         flow_solver cold;
         auto const expected = cold.solve(now.view());
@@ -218,7 +196,7 @@ TEST(flow_solver, warm_is_cold) {
 TEST(flow_solver, permuted_agents_get_the_same_slots) {
   int tied = 0;
   EXPECT_TRUE(rc::check([&] {
-    dice d(*small_world::any_seed().as("seed"));
+    dice d(*any_seed().as("seed"));
     // Distinct totals, by the rule that breaks ties between agents whatever row they stand in.
     auto const n = static_cast<std::size_t>(2 + d.below(30));
     auto const m = static_cast<std::size_t>(2 + d.below(4));
@@ -247,9 +225,9 @@ TEST(flow_solver, within_any_limit_is_valid_and_says_how_far_off) {
        {flavour{.agents = 60, .slots = 10, .levels = 50}, flavour{.agents = 150, .slots = 8, .levels = 1000}}) {
     shares s;
     EXPECT_TRUE(rc::check([&] {
-      dice d(*small_world::any_seed().as("seed"));
+      dice d(*any_seed().as("seed"));
       auto const p = random_problem(d, f);
-      dense const in(p);
+      owned_instance const in(p);
       flow_solver cold, limited;
       auto const best = cold.solve(in.view());
       auto const got = limited.solve(in.view(), {static_cast<std::uint64_t>(d.below(300)), {}});
@@ -281,7 +259,7 @@ TEST(flow_solver, stops_when_asked_to) {
   int asked = 0;
   auto const third_time = [&] { return ++asked >= 3; };
   flow_solver solver;
-  auto const got = solver.solve(dense(p).view(), {std::numeric_limits<std::uint64_t>::max(), third_time});
+  auto const got = solver.solve(owned_instance(p).view(), {std::numeric_limits<std::uint64_t>::max(), third_time});
   EXPECT_EQ(got.status, status::feasible);
   EXPECT_GT(got.bound, got.value);
   EXPECT_EQ(valid_total(p, slots_of(got)), got.value);
@@ -290,7 +268,7 @@ TEST(flow_solver, stops_when_asked_to) {
 // As large as the preconditions allow: sums must neither wrap nor meet what marks an absent pair.
 TEST(flow_solver, at_the_limits_of_its_numbers) {
   EXPECT_TRUE(rc::check([&] {
-    dice d(*small_world::any_seed().as("seed"));
+    dice d(*any_seed().as("seed"));
     auto p = random_problem(d, {.agents = 6, .slots = 4, .levels = 3});
     auto const reach = rota::dense::max_reach / static_cast<std::int64_t>(p.slots + 2);
     auto const total = rota::dense::max_total / static_cast<std::int64_t>(std::max<std::size_t>(p.agents, 1));
@@ -305,7 +283,7 @@ TEST(flow_solver, at_the_limits_of_its_numbers) {
       for (auto const a : changed)
         for (std::size_t k = 0; k < p.slots; ++k)
           if (auto& u = p.utility[a * p.slots + k]; u && *u > -2 && *u < 2) *u *= std::min(reach, total);
-      dense const now(p);
+      owned_instance const now(p);
       auto const got = solver.resolve(now.view(), changed);
       auto const expected = enumerate(p);
       RC_ASSERT(got.found() == expected.has_value());
@@ -328,7 +306,8 @@ TEST(flow_solver, prices_that_climb_do_not_go_out_of_range) {
     // Everybody would rather be here, then there; agent 1 a little more so.
     if (turn % 2 == 0) p.utility = {much - 1, -much, much, -much};
     if (turn % 2 == 1) p.utility = {-much, much - 1, -much, much};
-    auto const got = turn == 0 ? solver.solve(dense(p).view()) : solver.resolve(dense(p).view(), both);
+    auto const got =
+        turn == 0 ? solver.solve(owned_instance(p).view()) : solver.resolve(owned_instance(p).view(), both);
     ASSERT_EQ(got.value, enumerate(p)->total) << turn;
     ASSERT_EQ(slots_of(got), enumerate(p)->slot) << turn;
     for (auto const price : solver.prices()) ASSERT_LE(std::abs(price), 4 * rota::dense::max_reach) << turn;
@@ -365,7 +344,7 @@ TEST(flow_solver, a_steady_loop_allocates_nothing) {
     p.part.assign(p.agents, 1);
     p.bounds.assign(p.slots, {0, static_cast<unsigned>(p.agents / p.slots + 1)});
     for (std::size_t i = 0; i < p.agents * p.slots; ++i) p.utility.push_back(d.below(1000000));
-    dense in(p);
+    owned_instance in(p);
     flow_solver solver;
     std::vector<row_index> changed{0};
     auto const loop = [&] {
@@ -383,134 +362,5 @@ TEST(flow_solver, a_steady_loop_allocates_nothing) {
     EXPECT_EQ(rota_test::allocation_count() - before, 0u);
   }
 }
-
-// Ties -------------------------------------------------------------------------------------------------------------------
-
-TEST(tie_rule, keys_decide_ties_and_nothing_else) {
-  int unique = 0;
-  int hashed = 0;
-  EXPECT_TRUE(rc::check([&] {
-    dice d(*small_world::any_seed().as("seed"));
-    auto const p = random_problem(d, {.agents = 6, .slots = 4, .levels = 3});
-    auto const scale = std::int64_t{1} << d.below(50);  // the larger, the fewer bits are left
-    std::uint64_t greatest = 0;
-    dense in(p);
-    for (auto& u : in.utility) {
-      if (u == rota::dense::absent) continue;
-      u *= scale;
-      greatest = std::max(greatest, static_cast<std::uint64_t>(u < 0 ? -u : u));
-    }
-    if (!rota::dense::fits(p.agents, p.slots, greatest)) return;
-    rota::dense::tie_rule const rule(p.agents, p.slots, greatest);
-    auto keyed = in;
-    for (std::size_t a = 0; a < p.agents; ++a)
-      rule.keys(a, in.utility.data() + a * p.slots, keyed.utility.data() + a * p.slots);
-    for (std::size_t i = 0; i < in.utility.size(); ++i) {
-      if (in.utility[i] == rota::dense::absent) {
-        RC_ASSERT(keyed.utility[i] == rota::dense::absent);
-      } else {
-        RC_ASSERT(rule.utility(keyed.utility[i]) == in.utility[i]);
-        RC_ASSERT(rule.key(in.utility[i], i / p.slots, i % p.slots) == keyed.utility[i]);
-        auto const size = static_cast<std::uint64_t>(keyed.utility[i] < 0 ? -keyed.utility[i] : keyed.utility[i]);
-        RC_ASSERT(rota::dense::fits(p.agents, p.slots, size));
-      }
-    }
-    flow_solver plain, by_key;
-    auto const expected = plain.solve(in.view());
-    auto view = keyed.view();
-    view.unique = rule.unique();
-    auto const got = by_key.solve(view);
-    RC_ASSERT(got.status == expected.status);
-    RC_ASSERT(got.obstacle == expected.obstacle);
-    if (!got.found()) return;
-    RC_ASSERT(rule.utility(got.value) == expected.value);
-    if (!rule.unique()) return void(++hashed);
-    ++unique;
-    RC_ASSERT(slots_of(got) == slots_of(expected));
-  }));
-  EXPECT_GE(unique, 100);
-  EXPECT_GE(hashed, 30);
-}
-
-TEST(tie_rule, a_large_team_of_equals_is_told_apart) {
-  rota::dense::tie_rule const rule(1000, 20, 1000);
-  EXPECT_FALSE(rule.unique());
-  std::vector<std::int64_t> const row(20, 7);
-  std::vector<std::int64_t> first(20), second(20);
-  rule.keys(3, row.data(), first.data());
-  rule.keys(4, row.data(), second.data());
-  EXPECT_NE(first, second);
-  EXPECT_GT(*std::max_element(first.begin(), first.end()), *std::min_element(first.begin(), first.end()));
-}
-
-// Kernels ----------------------------------------------------------------------------------------------------------------
-
-#ifdef ROTA_HAS_LANES
-TEST(kernel, lanes_compute_what_plain_loops_do) {
-  namespace wide = rota::dense::wide;
-  if (!wide::pays(8, 8)) GTEST_SKIP() << "this processor has no AVX2";
-  EXPECT_TRUE(rc::check([&] {
-    dice d(*small_world::any_seed().as("seed"));
-    auto const n = static_cast<std::size_t>(8 + d.below(60));
-    int const levels = d.chance(50) ? 4 : 1000;
-    auto draw = [&] {
-      std::vector<std::int64_t> v(n);
-      for (auto& x : v) x = d.chance(5) ? rota::dense::absent : d.below(levels) - levels / 2;
-      return v;
-    };
-    auto const worth = draw();
-    std::vector<std::int64_t> price(n);
-    for (auto& x : price) x = d.below(levels);
-
-    std::size_t best = 0;
-    for (std::size_t k = 0; k < n; ++k)
-      if (worth[k] - price[k] > worth[best] - price[best]) best = k;
-    RC_ASSERT(wide::best(worth.data(), price.data(), n) == best);
-    auto second = rota::dense::row_leaders::nothing;
-    for (std::size_t k = 0; k < n; ++k)
-      if (k != best) second = std::max(second, worth[k] - price[k]);
-    auto const leaders = wide::best_two(worth.data(), price.data(), n);
-    RC_ASSERT(leaders.at == best);
-    RC_ASSERT(leaders.first == worth[best] - price[best]);
-    RC_ASSERT(leaders.second == second);
-
-    constexpr std::int64_t limit = std::int64_t{1} << 60;
-    std::vector<std::int64_t> label(n, limit), via(n, -1);
-    for (std::size_t k = 0; k < n; ++k)
-      if (d.chance(50)) label[k] = d.below(levels);
-    auto expected_label = label, expected_via = via;
-    rota::dense::row_entry least{limit, n};
-    for (std::size_t k = 0; k < n; ++k) {
-      auto const offered = 5 + price[k] - worth[k];
-      if (offered < expected_label[k]) expected_label[k] = offered, expected_via[k] = 42;
-      if (expected_label[k] < least.value) least = {expected_label[k], k};
-    }
-    auto const relaxed = wide::relax(5, price.data(), worth.data(), 42, label.data(), via.data(), n, limit);
-    RC_ASSERT(label == expected_label);
-    RC_ASSERT(via == expected_via);
-    RC_ASSERT(relaxed.value == least.value && (relaxed.value == limit || relaxed.at == least.at));
-    auto const found = wide::least(label.data(), n, limit);
-    RC_ASSERT(found.value == least.value && (found.value == limit || found.at == least.at));
-
-    auto most = draw();
-    std::vector<std::int64_t> who(n, 0);
-    auto expected_most = most, expected_who = who;
-    for (std::size_t k = 0; k < n; ++k)
-      if (worth[k] - 3 > expected_most[k]) expected_most[k] = worth[k] - 3, expected_who[k] = 9;
-    wide::raise(worth.data(), 3, 9, most.data(), who.data(), n);
-    RC_ASSERT(most == expected_most);
-    RC_ASSERT(who == expected_who);
-
-    auto const from = static_cast<std::size_t>(d.below(static_cast<int>(n)));
-    auto gap = price[from] - worth[from];
-    for (auto k = from; k < n; ++k) gap = std::min(gap, price[k] - worth[k]);
-    for (auto const here : {std::int64_t{2}, gap, gap - 1}) {  // some are tight, just one or equal ones are, none is
-      auto tight = from;
-      while (tight < n && worth[tight] + here < price[tight]) ++tight;
-      RC_ASSERT(wide::first_tight(worth.data(), here, price.data(), from, n) == tight);
-    }
-  }));
-}
-#endif
 
 }  // namespace additive_test
