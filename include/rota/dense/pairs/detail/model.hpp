@@ -244,6 +244,14 @@ private:
     }
   }
 
+  /// sum / slots, without the division: a tenth of the time of a small instance would be divisions. The half keeps the
+  /// product away from whole numbers by more than its error, so that it does not depend on how exact doubles are.
+  [[nodiscard]] std::int64_t share_of(std::int64_t sum, double one_of_slots) const {
+    constexpr std::int64_t exact = std::int64_t{1} << 49;
+    if (sum <= -exact || sum >= exact) return sum / static_cast<std::int64_t>(slots_);
+    return static_cast<std::int64_t>((static_cast<double>(sum) + (sum < 0 ? -0.5 : 0.5)) * one_of_slots);
+  }
+
   void split(std::size_t a, std::size_t b, std::int64_t* row, std::int64_t* column) {
     std::size_t const m = slots_;
     std::int64_t sum = 0;
@@ -254,11 +262,9 @@ private:
         for (std::size_t y = 0; y < m; ++y) row[x] += w[y], column[y] += w[y];
         sum += row[x];
       }
-      double const each = 1.0 / static_cast<double>(m);
-      for (std::size_t x = 0; x < m; ++x) {
-        row[x] = static_cast<std::int64_t>(static_cast<double>(row[x]) * each);
-        column[x] = static_cast<std::int64_t>(static_cast<double>(column[x]) * each);
-      }
+      double const one_of_slots = 1.0 / static_cast<double>(m);
+      for (std::size_t x = 0; x < m; ++x)
+        row[x] = share_of(row[x], one_of_slots), column[x] = share_of(column[x], one_of_slots);
       seen = static_cast<std::int64_t>(m * m);
     } else {
       for (std::size_t x = 0; x < m; ++x) {
