@@ -168,8 +168,8 @@ private:
     using detail::price_table;
     std::size_t const n = model_.agents();
     auto plan = detail::suffix_plan::fitting(n, upper_.size(), budget / 4);
-    if (effort.exact_suffix != pair_effort::automatic) plan.exact = effort.exact_suffix;
-    if (effort.bounded_suffix != pair_effort::automatic) plan.beyond = effort.bounded_suffix;
+    if (effort.exact_suffix != pair_effort::automatic) plan.enumerated = effort.exact_suffix;
+    if (effort.bounded_suffix != pair_effort::automatic) plan.expanded = effort.bounded_suffix;
     if (upper_.size() > price_table::most_slots || !detail::count_space::fits(upper_.size(), n) ||
         price_table::number_of_finals(lower_, upper_, n) > price_table::most_finals(n))
       plan = {};

@@ -398,7 +398,7 @@ private:
         c.version = s.version;
         std::memcpy(prices, s.prices.data(), sizeof s.prices);  // at() may overwrite the state
       } else {
-        c.allowed = suffix_->flat(e);
+        c.allowed = suffix_->greatest(e);
         for (std::size_t y = 0; y < slots_; ++y)
           prices[y] = count_[y] + (c.at == y ? 1 : 0) == upper_[y] ? pair_model::most_price - 1 : 0;
       }

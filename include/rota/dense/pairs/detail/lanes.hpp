@@ -30,6 +30,11 @@ using lane = std::int16_t;
 
 inline constexpr std::size_t lane_block = 16;
 
+/// What is lost, in units of 2^unit_shift: rounded towards 0, and raised to the floor. @pre value ≤ 0
+constexpr lane rounded_loss(std::int32_t value, lane floor, unsigned unit_shift = 0) {
+  return static_cast<lane>(std::max<std::int32_t>(-(-value >> unit_shift), floor));
+}
+
 /// The lanes that n agents take: eight, or whole blocks.
 constexpr std::size_t lane_stride(std::size_t n) { return n <= 8 ? 8 : (n + lane_block - 1) / lane_block * lane_block; }
 
@@ -50,25 +55,25 @@ struct lane_child {
 
 /// Two agents side by side: a column is a pair of slots, once one way round (first `width` lanes), once the other.
 struct lane_columns {
-  lane const* sums = nullptr;            ///< [2·width]
-  lane const* adds = nullptr;            ///< [slot][2·width]: what another agent in that slot adds
-  std::int32_t const* values = nullptr;  ///< [slot]: what that agent is worth itself, as a loss
-  std::uint32_t const* more = nullptr;   ///< [slot]: the state it leads to, or ~0
-  lane* to = nullptr;                    ///< [state][width]
-  std::size_t apart = 0;                 ///< … and so much farther per slot
-  std::size_t width = 0;                 ///< a multiple of 16
-  std::size_t slot_count = 0;            ///< at most 32
-  std::int32_t value = 0;                ///< to be added to all values, which are then divided by 2^coarse, rounded up,
-  std::int32_t floor = 0;                ///< and raised to this
+  lane const* sums = nullptr;                 ///< [2·width]
+  lane const* adds = nullptr;                 ///< [slot][2·width]: what another agent in that slot adds
+  std::int32_t const* values = nullptr;       ///< [slot]: what that agent is worth itself, as a loss
+  std::uint32_t const* next_state = nullptr;  ///< [slot]: the state it leads to, or ~0
+  lane* to = nullptr;                         ///< [state][width]
+  std::size_t apart = 0;                      ///< … and so much farther per slot
+  std::size_t width = 0;                      ///< a multiple of 16
+  std::size_t slot_count = 0;                 ///< at most 32
+  std::int32_t value = 0;  ///< to be added to all values, which are then divided by 2^coarse, rounded up,
+  std::int32_t floor = 0;  ///< and raised to this
   unsigned coarse = 0;
 };
 
 /// One agent more to be counted, for many cases at once, one per lane: from counts to counts.
 struct lane_transport {
-  lane const* from = nullptr;           ///< [state][width]
-  lane const* gains = nullptr;          ///< [slot][width]
-  lane* to = nullptr;                   ///< [state][width]
-  std::uint32_t const* more = nullptr;  ///< [state][slot]: the state with one agent more in that slot, or ~0
+  lane const* from = nullptr;                 ///< [state][width]
+  lane const* gains = nullptr;                ///< [slot][width]
+  lane* to = nullptr;                         ///< [state][width]
+  std::uint32_t const* next_state = nullptr;  ///< [state][slot]: the state with one agent more in that slot, or ~0
   std::size_t states = 0;
   std::size_t slot_count = 0;
   std::size_t width = 0;  ///< a multiple of 16
@@ -150,8 +155,8 @@ ROTA_LANES_INLINE void columns(lane_columns const& job) {
   lane value[32];
   std::size_t count = 0;
   for (std::size_t x = 0; x < job.slot_count; ++x) {
-    if (job.more[x] == ~std::uint32_t{0}) continue;
-    to[count] = job.to + x * job.apart + job.more[x] * job.width;
+    if (job.next_state[x] == ~std::uint32_t{0}) continue;
+    to[count] = job.to + x * job.apart + job.next_state[x] * job.width;
     add[count] = job.adds + x * 2 * job.width;
     value[count++] = static_cast<lane>((std::max)(-(-(job.value + job.values[x]) >> job.coarse), job.floor));
   }
@@ -174,7 +179,7 @@ template <std::size_t Width>
 ROTA_LANES_INLINE void transport(lane_transport const& job) {
   using vector = typename of<Width>::vector;
   using memory = typename of<Width>::memory;
-  std::uint32_t const* more = job.more;
+  std::uint32_t const* more = job.next_state;
   for (std::size_t i = 0; i < job.states; ++i)
     for (std::size_t x = 0; x < job.slot_count; ++x, ++more) {
       if (*more == ~std::uint32_t{0}) continue;
@@ -257,8 +262,8 @@ template <bool Floored>
 
 inline void columns_portable(lane_columns const& job) {
   for (std::size_t x = 0; x < job.slot_count; ++x) {
-    if (job.more[x] == ~std::uint32_t{0}) continue;
-    lane* const to = job.to + x * job.apart + job.more[x] * job.width;
+    if (job.next_state[x] == ~std::uint32_t{0}) continue;
+    lane* const to = job.to + x * job.apart + job.next_state[x] * job.width;
     lane const* const add = job.adds + x * 2 * job.width;
     int const value = (std::max)(-(-(job.value + job.values[x]) >> job.coarse), job.floor);
     for (std::size_t c = 0; c < job.width; ++c) {
@@ -269,7 +274,7 @@ inline void columns_portable(lane_columns const& job) {
 }
 
 inline void transport_portable(lane_transport const& job) {
-  std::uint32_t const* more = job.more;
+  std::uint32_t const* more = job.next_state;
   for (std::size_t i = 0; i < job.states; ++i)
     for (std::size_t x = 0; x < job.slot_count; ++x, ++more)
       for (std::size_t l = 0; l < job.width && *more != ~std::uint32_t{0}; ++l) {

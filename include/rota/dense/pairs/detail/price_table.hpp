@@ -105,10 +105,10 @@ public:
     s.by_slot = true;
     std::size_t const d = s.stamp & 127U;
     std::size_t const valid = list_valid(s.key, agents_ - d);
-    float const* const by = suffix_->best_by(d);
+    float const* const by = suffix_->by_slot(d);
     std::size_t const width = suffix_->width();
     std::array<floats4, most_slots / 4> most;
-    most.fill(floats4::all(suffix_bounds::impossible));
+    most.fill(floats4::all(suffix_table::impossible));
     std::fill(values_.begin(), values_.end(), 0.0F);
     add_prices(s.prices.data());
     for (std::size_t i = 0; i < valid; ++i) {
@@ -121,7 +121,7 @@ public:
     std::int32_t const paid = payment(s, s.prices.data());
     for (std::size_t y = 0; y < slots_; ++y)
       s.most_by[y] =
-          flat[y] < suffix_bounds::feasible ? impossible : static_cast<std::int32_t>(flat[y]) - paid - s.prices[y];
+          flat[y] < suffix_table::feasible ? impossible : static_cast<std::int32_t>(flat[y]) - paid - s.prices[y];
   }
 
   /// Looks for prices under which the node allows at most `enough`, one step from those of its state; keeps good ones.
@@ -193,7 +193,7 @@ private:
     std::size_t const left = agents_ - d;
     float const* const best = suffix_->best(d);
     float* const row = row_of(s);
-    std::fill_n(row, width_, suffix_bounds::impossible);
+    std::fill_n(row, width_, suffix_table::impossible);
     std::size_t const valid = list_valid(placed, left);
     for (std::size_t i = 0; i < valid; ++i) row[valid_[i]] = best[numbers_[i]];
     if (valid == 0) return;
@@ -238,7 +238,7 @@ private:
   floats4 add_prices(lane const* price) {
     std::array<floats4, most_slots> prices;
     for (std::size_t y = 0; y < slots_; ++y) prices[y] = floats4::all(price[y]);
-    floats4 best = floats4::all(suffix_bounds::impossible);
+    floats4 best = floats4::all(suffix_table::impossible);
     for (std::size_t f = 0; f < width_; f += 4) {
       floats4 v = floats4::load(&values_[f]);
       float const* c = components_.data() + f;
@@ -256,7 +256,7 @@ private:
     float four[4];
     best.store(four);
     float const most = *std::max_element(four, four + 4);
-    if (most < suffix_bounds::feasible) return impossible;
+    if (most < suffix_table::feasible) return impossible;
     final = static_cast<std::uint32_t>(std::find(values_.begin(), values_.end(), most) - values_.begin());
     return static_cast<std::int32_t>(most) - payment(s, price);
   }
