@@ -22,6 +22,7 @@
 #include <rota/model/outline.hpp>
 #include <rota/model/plan_type.hpp>
 #include <rota/model/team.hpp>
+#include <rota/search/assign.hpp>
 #include <rota/search/best_allocation.hpp>
 #include <rota/search/reallocate.hpp>
 #include <rota/team/conflict.hpp>

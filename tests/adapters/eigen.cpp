@@ -8,6 +8,7 @@
 
 #include <array>
 #include <map>
+#include <vector>
 
 namespace rota::test {
 namespace eigen_test {
@@ -45,6 +46,18 @@ TEST(eigen, a_matrix_is_an_additive_utility_and_back) {
   EXPECT_EQ(back(0, 1), std::numeric_limits<double>::infinity());
   EXPECT_TRUE(std::isnan(back(1, 0)));
   EXPECT_EQ(back(1, 2), 1);
+}
+
+TEST(eigen, a_matrix_is_assigned_whatever_its_storage_and_scalar) {
+  Eigen::Matrix<float, 2, 3> costs;  // by columns
+  costs << 4, 1, static_cast<float>(eigen::forbidden), 1, 9, 5;
+  std::array<cardinality, 3> const bounds{{{0, 1}, {0, 1}, {0, 1}}};
+  auto const best = eigen::assign(costs, bounds, {.minimise = true});
+  ASSERT_TRUE(best);
+  EXPECT_EQ(best->tasks, (std::vector<std::size_t>{1, 0}));
+  EXPECT_EQ(best->total, 2);
+  EXPECT_EQ(eigen::assign(costs, std::span(bounds).first(2)).error().why, assign_fault::sizes_differ);
+  EXPECT_EQ(eigen::assign(costs, bounds, {.forbidden = 9}).error(), (assign_refusal{assign_fault::not_a_number, 0, 2}));
 }
 
 /// Atoms of a small universe, numbered.

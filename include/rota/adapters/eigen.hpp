@@ -6,12 +6,12 @@
 #include <rota/algebra/event.hpp>
 #include <rota/core/result.hpp>
 #include <rota/model/plan.hpp>
+#include <rota/search/assign.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -88,9 +88,21 @@ template <vocabulary V, class Beliefs = no_beliefs, class Derived>
     };
     auto const row = find(t->rows, a);
     auto const column = find(t->columns, task);
-    if (!row || !column || std::isnan(t->values(*row, *column))) return std::nullopt;
+    if (!row || !column || rota::detail::is_nan(t->values(*row, *column))) return std::nullopt;
     return t->values(*row, *column);
   };
+}
+
+/// The best assignment of the agents of the rows to the tasks of the columns, see `rota::assign`. Unless the options say
+/// otherwise, NaN forbids.
+template <class Derived>
+[[nodiscard]] result<assignment, assign_refusal>
+assign(Eigen::MatrixBase<Derived> const& matrix, std::span<cardinality const> bounds, assign_options options = {}) {
+  if (static_cast<std::size_t>(matrix.cols()) != bounds.size())
+    return refused{assign_refusal{assign_fault::sizes_differ, 0, 0}};
+  if (!options.forbidden) options.forbidden = forbidden;
+  utility_matrix const rows = matrix.template cast<double>();
+  return rota::assign(std::span(rows.data(), static_cast<std::size_t>(rows.size())), bounds, options);
 }
 
 /// A bijection between finitely many atoms and 0 … size() − 1: the coordinates of a sparse vector.

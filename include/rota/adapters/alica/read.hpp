@@ -4,7 +4,6 @@
 #include <rota/adapters/alica/xml.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -88,7 +87,7 @@ private:
     p.name = out_.name;
     p.team_size = read_bounds(top, id, false);
     auto threshold = top.real("utilityThreshold");
-    if (threshold.value && !(*threshold.value >= 0 && std::isfinite(*threshold.value)))
+    if (threshold.value && !(*threshold.value >= 0 && rota::detail::is_finite(*threshold.value)))
       threshold = {{}, "negative or no finite number"};
     p.utility_threshold = take(std::move(threshold), top, "utilityThreshold", id).value_or(0);
     if (auto const pre = take(top.precondition(), top, "preCondition", id)) {
@@ -172,7 +171,7 @@ private:
 
   void read_roles(Cursor const& top, std::optional<identity> id) {
     auto preset = top.real("defaultPriority");
-    if (preset.value && !std::isfinite(*preset.value)) preset = {{}, "no finite number"};
+    if (preset.value && !rota::detail::is_finite(*preset.value)) preset = {{}, "no finite number"};
     double const otherwise = take(std::move(preset), top, "defaultPriority", id).value_or(0);
     out_.roles_are_elsewhere = Cursor::format == file_format::xml && !take_list(top, "mappings", id).empty();
     for (Cursor const& c : take_list(top, out_.roles_are_elsewhere ? "mappings" : "roles", id)) {
@@ -199,7 +198,7 @@ private:
         out_.defect(p.place, r.id, in_quotes(p.key) + " refers to no task");
         continue;
       }
-      if (p.value.value && !std::isfinite(*p.value.value)) p.value = {{}, "no finite number"};
+      if (p.value.value && !rota::detail::is_finite(*p.value.value)) p.value = {{}, "no finite number"};
       if (!p.value.wrong.empty()) {
         out_.defect(p.place, r.id, "the priority is " + p.value.wrong);
         continue;

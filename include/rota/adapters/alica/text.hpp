@@ -1,10 +1,10 @@
 #pragma once
 
 #include <rota/adapters/alica/model.hpp>
+#include <rota/model/detail/finite.hpp>
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -75,12 +75,14 @@ private:
   double x = 0;
 #ifdef __cpp_lib_to_chars
   auto const [end, error] = std::from_chars(s.data(), s.data() + s.size(), x);
-  if (s.empty() || error != std::errc{} || end != s.data() + s.size() || !std::isfinite(x)) return std::nullopt;
+  if (s.empty() || error != std::errc{} || end != s.data() + s.size() || !rota::detail::is_finite(x))
+    return std::nullopt;
 #else  // libc++ 19 has no from_chars of double; this refuses subnormal numbers besides
   if (s.empty() || s.find_first_not_of("-.0123456789eE") != std::string_view::npos) return std::nullopt;
   std::istringstream in{std::string(s)};
   in.imbue(std::locale::classic());
-  if (!(in >> x) || in.peek() != std::istringstream::traits_type::eof() || !std::isfinite(x)) return std::nullopt;
+  if (!(in >> x) || in.peek() != std::istringstream::traits_type::eof() || !rota::detail::is_finite(x))
+    return std::nullopt;
 #endif
   return x;
 }
