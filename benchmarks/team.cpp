@@ -21,7 +21,6 @@ using vocabulary = rota::runtime_vocabulary;
 using atom = rota::in<vocabulary>;
 using event = rota::event<atom>;
 using agent_id = vocabulary::agent;
-using agent = rota::robot<vocabulary>;
 
 constexpr std::size_t robots = 5;
 constexpr std::size_t tasks = 4;
@@ -74,15 +73,15 @@ struct setting {
   rota::team<vocabulary> members = squad();
   beliefs seen = some_beliefs();
   rota::workspace space;
-  agent robot;
+  rota::robot<vocabulary> self;
   rota::instant now{};
   std::uint64_t sequence = 0;
 
-  explicit setting(rota::robot_options options = {}) : robot({0}, members.agents(), options) {
-    robot.enter(type, now);
+  explicit setting(rota::robot_options options = {}) : self({0}, members.agents(), rota::incarnation{1}, options) {
+    self.enter(type, now);
     for (std::uint64_t b = 1; b < robots; ++b) hear(b, std::nullopt);
     auto const d = deliberate();
-    check(std::abs(d.utility - best_total(seen)) < 1e-5, "the best allocation");
+    check(std::abs(d.search->utility - best_total(seen)) < 1e-5, "the best allocation");
     for (std::uint64_t b = 1; b < robots; ++b) hear(b, task_of(b));
     check(deliberate().reason == rota::decision_reason::kept, "then nothing changes");
   }
@@ -92,17 +91,17 @@ struct setting {
     return t;
   }
   std::optional<vocabulary::task> task_of(std::uint64_t b) const {
-    auto const x = robot.believes(play)->part({b});
+    auto const x = self.believes(play)->part({b});
     return x ? std::optional{x->task} : std::nullopt;
   }
   rota::reception<vocabulary> hear(std::uint64_t from, std::optional<vocabulary::task> task) {
-    rota::plan_message<vocabulary> m{{from}, {1, ++sequence}, {}};
+    rota::plan_message<vocabulary> m{{from}, {{1}, ++sequence}, {}};
     rota::participation<vocabulary> p{play, std::nullopt};
     if (task) p.place = rota::placement<vocabulary>{normal, *task, {}};
     m.types.push_back(p);
-    return robot.receive(m, now);
+    return self.receive(m, now);
   }
-  rota::decision<vocabulary> deliberate() { return robot.deliberate(type, members, seen, now, space); }
+  rota::decision<vocabulary> deliberate() { return self.deliberate(type, members, seen, now, space); }
 };
 
 /// Times f() and counts what it allocates.
@@ -143,7 +142,7 @@ void tick_quarrelling(benchmark::State& state) {
   rota::robot_options options;
   options.resolution = false;
   setting s(options);
-  auto const at_peace = s.robot.believes(play)->atoms();
+  auto const at_peace = s.self.believes(play)->atoms();
   std::uint64_t b = 0;
   std::uint64_t cycles = 0;
   counted(state, [&] {
@@ -155,7 +154,7 @@ void tick_quarrelling(benchmark::State& state) {
     return d;
   });
   check(cycles == static_cast<std::uint64_t>(state.iterations()), "each one a cycle");
-  check(s.robot.believes(play)->atoms() == at_peace, "set right");
+  check(s.self.believes(play)->atoms() == at_peace, "set right");
 }
 
 void receive_plan_message(benchmark::State& state) {
@@ -182,7 +181,7 @@ void monitor_step(benchmark::State& state) {
   counted(state, [&] {
     now = now + tick;
     b = b + 1 == robots ? 1 : b + 1;
-    monitor.on_message({b}, parts[b], std::nullopt, now);
+    monitor.on_message({{b}, parts[b], std::nullopt}, now);
     auto const v = monitor.on_deliberation(nothing, atoms, now);
     check(v.cycles == 1, "one cycle");
     detections += v.detected.has_value();

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdio>
+#include <ctime>
 
 struct soccer {
   enum class agent { left = 1, right };
@@ -37,9 +38,10 @@ int main() {
     rota::instant next_tick;
   };
   std::array const roster{left, right};
+  auto const life = rota::incarnation::started_at(std::time(nullptr));  // greater at every restart
   std::array<robot, 2> robots{
-      robot{rota::robot<soccer>(left, roster), {left}, {}, {}},
-      robot{rota::robot<soccer>(right, roster), {right}, {}, rota::instant{} + milliseconds(13)}};
+      robot{rota::robot<soccer>(left, roster, life), {left}, {}, {}},
+      robot{rota::robot<soccer>(right, roster, life), {right}, {}, rota::instant{} + milliseconds(13)}};
   for (auto& r : robots) r.self.enter(play, rota::instant{});
 
   bool ruled = false;

@@ -75,7 +75,7 @@ evaluation evaluate(sim::playbook const& book, std::uint64_t seed,
       sim::play_options options;
       options.what = s;
       options.team.seed = seed;
-      options.team.agent.resolution = resolution;
+      options.team.robot.resolution = resolution;
       return play_scenario(book, options);
     };
     auto off = run(false);

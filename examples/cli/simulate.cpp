@@ -12,12 +12,12 @@ namespace {
 duration in_nanoseconds(double amount, double unit) { return {static_cast<std::int64_t>(amount * unit + 0.5)}; }
 
 std::string as_text(sim::playbook const& book, sim::play_options const& o, sim::figures const& f) {
-  auto const& agent = o.team.agent;
+  auto const& robot = o.team.robot;
   std::string out =
       std::string(to_string(o.what)) + ": " + counted(o.robots, "robot") + " play " + plan_names(book) + " for " +
       milliseconds_text(to_milliseconds(f.measured)) + ", seed " + std::to_string(o.team.seed) + "\nresolution " +
-      (agent.resolution ? "on: " + std::to_string(agent.cycles) + " cycles, reigns of " +
-                              milliseconds_text(to_milliseconds(agent.reign))
+      (robot.resolution ? "on: " + std::to_string(robot.cycles) + " cycles, reigns of " +
+                              milliseconds_text(to_milliseconds(robot.reign))
                         : std::string("off")) +
       "; loss " + percent(o.team.network.loss) + ", latency " + number(to_milliseconds(o.team.network.latency)) +
       " to " + number(to_milliseconds(o.team.network.latency + o.team.network.jitter)) + " ms\n\n";
@@ -45,8 +45,8 @@ simulate_options default_simulation() {
   o.robots = play.robots;
   o.loss = play.team.network.loss;
   o.latency = to_milliseconds(play.team.network.latency);
-  o.cycles = play.team.agent.cycles;
-  o.reign = to_seconds(play.team.agent.reign);
+  o.cycles = play.team.robot.cycles;
+  o.reign = to_seconds(play.team.robot.reign);
   return o;
 }
 
@@ -58,14 +58,14 @@ outcome run_simulate(simulate_options const& o) {
   options.team.seed = o.seed;
   options.team.network.loss = o.loss;
   options.team.network.latency = in_nanoseconds(o.latency, 1e6);
-  options.team.agent.cycles = o.cycles;
-  options.team.agent.reign = options.team.agent.max_reign = in_nanoseconds(o.reign, 1e9);
-  options.team.agent.resolution = o.resolution == "on";
+  options.team.robot.cycles = o.cycles;
+  options.team.robot.reign = options.team.robot.max_reign = in_nanoseconds(o.reign, 1e9);
+  options.team.robot.resolution = o.resolution == "on";
   auto const file = o.plan.empty() ? default_plan() : o.plan;
   auto const book = read_playbook(file);
   require_playable(book, o.robots, file);
   auto const f = play_scenario(book, options);
-  return {o.json ? as_json(options.what, options.team.agent.resolution, o.seed, f) : as_text(book, options, f)};
+  return {o.json ? as_json(options.what, options.team.robot.resolution, o.seed, f) : as_text(book, options, f)};
 }
 
 }  // namespace rota::cli

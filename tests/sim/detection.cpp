@@ -43,7 +43,7 @@ template <class Monitor>
 std::optional<int> messages_until_detection(bool third_changes) {
   auto const book = soccer();
   auto const members = team_of(3);
-  robot<names, Monitor> me({1}, members.agents(), {});
+  robot<names, Monitor> me({1}, members.agents(), incarnation{1});
   instant now{};
   me.enter(book.type, now);
   point const at_defence{metres(-6), 0}, at_support{metres(-2), metres(3)};
@@ -51,7 +51,7 @@ std::optional<int> messages_until_detection(bool third_changes) {
   workspace space;
   std::uint64_t number = 0;
   auto const says = [&](std::uint64_t who, std::uint64_t task) {
-    plan_message<names> m{{who}, {1, ++number}, {}};
+    plan_message<names> m{{who}, {{1}, ++number}, {}};
     m.types.push_back({{1}, placement<names>{{1}, {task}, {task}}});
     me.receive(m, now);
   };

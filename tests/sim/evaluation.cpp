@@ -223,7 +223,7 @@ TEST(evaluation, perceptions_do_not_depend_on_network_monitor_or_plan) {
   EXPECT_EQ(play<literal_monitor<names>>(soccer(), options).perception_digest, expected);
   EXPECT_EQ(play(duel_playbook(), options).perception_digest, expected);
   options.team.network.loss = 0.6;
-  options.team.agent.cycles = 2;
+  options.team.robot.cycles = 2;
   EXPECT_EQ(play(soccer(), options).perception_digest, expected);
 }
 

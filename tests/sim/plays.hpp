@@ -21,7 +21,7 @@ inline rota::sim::play_options brief(rota::sim::scenario s, bool resolution, std
   o.length = rota::seconds(60);
   o.world.round = rota::seconds(12);
   o.team.seed = seed;
-  o.team.agent.resolution = resolution;
+  o.team.robot.resolution = resolution;
   return o;
 }
 

@@ -22,14 +22,15 @@ using claim = rota::claim<soccer>;
 using stamp = rota::claim_stamp<soccer>;
 
 constexpr rota::instant start{};
+constexpr rota::incarnation life{1};
 constexpr auto reign = rota::seconds(2);
 constexpr auto period = milliseconds(100);
 
-stamp of(int n) { return {0, robot(n)}; }
-atoms attacker(int n) { return {atom{robot(n), soccer::plan::normal, soccer::task::attack}}; }
+stamp of(int n) { return {0, agent(n)}; }
+atoms attacker(int n) { return {atom{agent(n), soccer::plan::normal, soccer::task::attack}}; }
 
 claim claim_by(int n, std::uint64_t number = 1, std::uint64_t version = 1, rota::duration remaining = reign) {
-  return {soccer::plan_type::play, attacker(n), of(n), robot(n), 1, number, version, remaining};
+  return {soccer::plan_type::play, attacker(n), of(n), agent(n), life, number, version, remaining};
 }
 
 TEST(authority, the_greater_stamp_wins_whatever_comes_first) {
@@ -37,7 +38,7 @@ TEST(authority, the_greater_stamp_wins_whatever_comes_first) {
     authority a;
     for (int n : order) a.hear(claim_by(n), of(1), start);
     EXPECT_TRUE(a.obeying());
-    EXPECT_EQ(a.current().leader, robot(9));
+    EXPECT_EQ(a.current().leader, agent(9));
   }
 }
 
@@ -47,7 +48,7 @@ TEST(authority, a_later_claim_of_a_smaller_one_takes_nobody_over) {
   EXPECT_EQ(a.hear(claim_by(9), of(1), start), claim_outcome::adopted);
   for (std::uint64_t number = 1; number < 5; ++number)
     EXPECT_EQ(a.hear(claim_by(7, number), of(1), start), claim_outcome::outranked);
-  EXPECT_EQ(a.current().leader, robot(9));
+  EXPECT_EQ(a.current().leader, agent(9));
 }
 
 TEST(authority, confidence_outranks_the_id) {
@@ -56,7 +57,7 @@ TEST(authority, confidence_outranks_the_id) {
   auto sure = claim_by(7);
   sure.stamp.confidence = 1;
   EXPECT_EQ(a.hear(sure, of(1), start), claim_outcome::adopted);
-  EXPECT_EQ(a.current().leader, robot(7));
+  EXPECT_EQ(a.current().leader, agent(7));
 }
 
 TEST(authority, a_smaller_claim_challenges_the_greater_agent) {
@@ -70,7 +71,7 @@ TEST(authority, a_smaller_claim_challenges_the_greater_agent) {
 
 TEST(authority, a_leader_answers_a_smaller_claim_at_once_and_yields_to_a_greater_one) {
   authority a;
-  a.lead(soccer::plan_type::play, attacker(8), of(8), 1, start, start, reign);
+  a.lead(soccer::plan_type::play, attacker(8), of(8), life, start, start, reign);
   EXPECT_TRUE(a.next_claim(start, period));
   EXPECT_FALSE(a.next_claim(start, period));
   EXPECT_EQ(a.hear(claim_by(7), of(8), start), claim_outcome::outranked);
@@ -82,7 +83,7 @@ TEST(authority, a_leader_answers_a_smaller_claim_at_once_and_yields_to_a_greater
 
 TEST(authority, a_leader_repeats_as_long_as_it_rules_and_says_what_is_left) {
   authority a;
-  a.lead(soccer::plan_type::play, attacker(8), of(8), 1, start, start, reign);
+  a.lead(soccer::plan_type::play, attacker(8), of(8), life, start, start, reign);
   int repeats = 0;
   for (auto now = start; now < start + rota::seconds(3); now = now + milliseconds(10)) {
     a.expire(now);
@@ -98,7 +99,7 @@ TEST(authority, a_leader_repeats_as_long_as_it_rules_and_says_what_is_left) {
 
 TEST(authority, a_change_of_mind_is_a_new_version_due_at_once) {
   authority leader, follower;
-  leader.lead(soccer::plan_type::play, attacker(8), of(8), 1, start, start, reign);
+  leader.lead(soccer::plan_type::play, attacker(8), of(8), life, start, start, reign);
   auto const first = *leader.next_claim(start, period);
   leader.revise(attacker(8), start);
   EXPECT_FALSE(leader.next_claim(start, period)) << "nothing changed";
@@ -136,23 +137,23 @@ TEST(authority, invariants_over_every_interleaving) {
   constexpr int team = 4;
   int switched = 0, revived_attempts = 0, restarts = 0;
   EXPECT_TRUE(rc::check("one leader, greater stamps only, bounded reigns, no revival", [&] {
+    using name = std::tuple<soccer::agent, rota::incarnation, std::uint64_t>;
     struct copy {
       claim what;
       rota::instant sent;
     };
     struct member {
       authority rule;
-      std::uint64_t incarnation = 1;
-      std::set<std::tuple<soccer::agent, std::uint64_t, std::uint64_t>>
-          ended;  // forgotten by a restart, like the agent
+      rota::incarnation incarnation = life;
+      std::set<name> ended;  // a restart forgets them, as it forgets the robot
     };
     std::vector<member> members(team + 1);
     std::vector<copy> flying;
-    std::map<std::tuple<soccer::agent, std::uint64_t, std::uint64_t>, rota::instant> leader_expiry;
+    std::map<name, rota::instant> leader_expiry;
     rota::duration greatest_delay{};
     rota::instant now = start;
 
-    auto const key = [](claim const& c) { return std::tuple(c.leader, c.incarnation, c.number); };
+    auto const key = [](claim const& c) { return name(c.leader, c.incarnation, c.number); };
     auto const lead = [&](int n) {
       auto& m = members[static_cast<std::size_t>(n)];
       m.rule.lead(soccer::plan_type::play, attacker(*rc::gen::inRange(1, team + 1)), of(n), m.incarnation, now, now,
@@ -175,7 +176,7 @@ TEST(authority, invariants_over_every_interleaving) {
       case 3: {
         if (flying.empty()) break;
         auto const& c = flying[static_cast<std::size_t>(*rc::gen::inRange<int>(0, int(flying.size())))];
-        if (c.what.leader == robot(n)) break;
+        if (c.what.leader == agent(n)) break;
         greatest_delay = std::max(greatest_delay, now - c.sent);
         bool const obeyed = m.rule.obeying();
         auto const previous = obeyed || m.rule.leading() ? m.rule.current() : claim{};
@@ -189,13 +190,13 @@ TEST(authority, invariants_over_every_interleaving) {
         revived_attempts += outcome == claim_outcome::expired;
         if (outcome == claim_outcome::challenged) lead(n);
         if (m.rule.obeying()) {
-          RC_ASSERT(m.rule.current().leader != robot(n));
+          RC_ASSERT(m.rule.current().leader != agent(n));
           RC_ASSERT(m.rule.expiry() <= leader_expiry.at(key(m.rule.current())) + greatest_delay);
         }
         break;
       }
       case 4:  // a restart: the state is lost, the incarnation grows
-        m = member{authority{}, m.incarnation + 1, {}};
+        m = member{authority{}, {m.incarnation.value + 1}, {}};
         ++restarts;
         break;
       default:
@@ -229,7 +230,7 @@ TEST(authority, one_round_without_loss_settles_on_the_greatest_claimant) {
     int greatest = 0;
     for (int n = 1; n <= team; ++n) {
       if (!*rc::gen::arbitrary<bool>().as("claims")) continue;
-      members[static_cast<std::size_t>(n)].lead(soccer::plan_type::play, attacker(n), of(n), 1, start, start, reign);
+      members[static_cast<std::size_t>(n)].lead(soccer::plan_type::play, attacker(n), of(n), life, start, start, reign);
       greatest = n;
     }
     RC_PRE(greatest > 0);
@@ -245,7 +246,7 @@ TEST(authority, one_round_without_loss_settles_on_the_greatest_claimant) {
           if (other == n) continue;
           auto& rule = members[static_cast<std::size_t>(other)];
           if (rule.hear(*c, of(other), start) == claim_outcome::challenged) {
-            rule.lead(soccer::plan_type::play, attacker(other), of(other), 1, start, start, reign);
+            rule.lead(soccer::plan_type::play, attacker(other), of(other), life, start, start, reign);
             greatest = std::max(greatest, other);
           }
         }

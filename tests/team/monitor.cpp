@@ -14,9 +14,9 @@ using rota::milliseconds;
 
 namespace {
 
-constexpr auto me = robot(1);
-constexpr auto b = robot(2);
-constexpr auto c = robot(3);
+constexpr auto me = agent(1);
+constexpr auto b = agent(2);
+constexpr auto c = agent(3);
 
 using part = std::optional<atom>;
 part const none;
@@ -49,7 +49,7 @@ struct receiver {
   void hear(soccer::agent who, part const& p) {
     auto const before = get(who);
     put(who, p);
-    monitor.on_message(who, before, p, now);
+    monitor.on_message({who, before, p}, now);
   }
   /// Deliberates so that b, and perhaps c, have these parts afterwards.
   rota::monitor_verdict<soccer> deliberate(part const& for_b, std::optional<part> const& for_c = std::nullopt) {

@@ -22,7 +22,7 @@ using atoms = rota::allocation_atoms<soccer>;
 using event = rota::event<atom>;
 using allocation = rota::allocation<soccer>;
 
-constexpr soccer::agent robot(int n) { return static_cast<soccer::agent>(n); }
+constexpr soccer::agent agent(int n) { return static_cast<soccer::agent>(n); }
 
 namespace rota {
 inline std::ostream& operator<<(std::ostream& os, in<soccer> const& x) {
@@ -47,7 +47,7 @@ inline std::ostream& operator<<(std::ostream& os, allocation<soccer> const& c) {
 inline rc::Gen<atom> any_atom(int agents) {
   return rc::gen::map(rc::gen::tuple(rc::gen::inRange(1, agents + 1), rc::gen::inRange(0, 2), rc::gen::inRange(0, 3)),
                       [](auto const& t) {
-                        return atom{robot(std::get<0>(t)), soccer::plan(std::get<1>(t)), soccer::task(std::get<2>(t))};
+                        return atom{agent(std::get<0>(t)), soccer::plan(std::get<1>(t)), soccer::task(std::get<2>(t))};
                       });
 }
 

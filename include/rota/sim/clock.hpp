@@ -10,15 +10,15 @@ namespace rota::sim {
 /// How the clocks and loops of robots differ from each other.
 struct clock_options {
   duration loop = milliseconds(30);  ///< mean length of the deliberation loop
-  std::int64_t loop_spread_ppm =
-      5000;                     ///< each robot's loop is longer or shorter by up to this: nothing stays in phase
+  /// Each robot's loop is longer or shorter by up to this, so that no two loops stay in phase.
+  std::int64_t loop_spread_ppm = 5000;
   std::int64_t drift_ppm = 50;  ///< each robot's clock is fast or slow by up to this
 };
 
-/// One robot's own clock, of unknown origin and slightly wrong speed, and its phases.
+/// One robot's own clock, with an unknown origin and a slightly wrong speed, and the phases of the robot's loops.
 ///
-/// Two robots' clocks are never compared. It never runs backwards; `global(local(t)) ≤ t` and `local(global(l)) ≥ l`.
-/// @pre drift below 1000 ppm, times below a day
+/// The clocks of two robots are never compared. A clock never runs backwards; `global(local(t)) ≤ t` and
+/// `local(global(l)) ≥ l`. @pre drift below 1000 ppm, times below a day
 class robot_clock {
 public:
   robot_clock() = default;
@@ -31,7 +31,7 @@ public:
     first_message_ = instant{} + origin_ + nanoseconds(uniform(engine, 0, message_period.ns - 1));
   }
 
-  /// What the clock shows at simulated time t ≥ 0.
+  /// The time that the clock shows at simulated time t ≥ 0.
   [[nodiscard]] instant local(instant t) const noexcept { return {t.ns + origin_.ns + drift_of(t.ns)}; }
   /// The first simulated time at which the clock shows l or more.
   [[nodiscard]] instant global(instant l) const noexcept {
@@ -43,7 +43,7 @@ public:
     return {t};
   }
 
-  /// On the robot's own clock: the loop, its first run, and the first slot of the message grid.
+  /// The length of the loop, its first run, and the first slot of the message grid, all on the robot's own clock.
   [[nodiscard]] duration loop() const noexcept { return loop_; }
   [[nodiscard]] instant first_loop() const noexcept { return first_loop_; }
   [[nodiscard]] instant first_message() const noexcept { return first_message_; }

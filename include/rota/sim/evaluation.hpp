@@ -15,12 +15,12 @@ struct play_options {
   scenario what = scenario::ball_fight;
   std::size_t robots = 5;
   std::optional<duration> length{};  ///< measured time; by default that of the scenario
-  duration warm_up = seconds(2);     ///< until the robots have heard of each other; not measured
+  duration warm_up = seconds(2);     ///< not measured: the robots hear of each other
   world_options world;
   simulation_options team;
 };
 
-/// Plays a scenario once, shows every record to `observe` as well, and measures. Equal options, equal figures.
+/// Plays a scenario once and measures it; `observe` sees every record as well. Equal options give equal figures.
 ///
 /// @pre 2 ≤ robots ≤ max_robots. Complexity: about 1 µs per deliberation and message.
 template <class Monitor = cycle_monitor<names>, observer Observer>
@@ -41,16 +41,16 @@ template <class Monitor = cycle_monitor<names>>
   return play<Monitor>(book, options, [](log_record const&) {});
 }
 
-/// The check figures of detection, for two robots that begin to fight, over random phases. Means, in ms.
+/// How long two robots that begin to fight need to detect it: means over random phases, in ms.
 struct timing_figures {
-  std::uint64_t samples = 0;    ///< robots that found two and four subsequent cycles
-  double two_cycles_ms = 0;     ///< at one agent, from applying the first e_m to the second e_r
-  double four_cycles_ms = 0;    ///< to the fourth e_r
-  double two_detected_ms = 0;   ///< from the time both act in conflict to the first robot with two cycles
-  double four_detected_ms = 0;  ///< to the first robot with four
+  std::uint64_t samples = 0;    ///< robots that counted two and four subsequent cycles
+  double two_cycles_ms = 0;     ///< at one robot, from applying the first e_m to the second e_r
+  double four_cycles_ms = 0;    ///< at one robot, from applying the first e_m to the fourth e_r
+  double two_detected_ms = 0;   ///< from when both act in conflict until the first robot has counted two cycles
+  double four_detected_ms = 0;  ///< from when both act in conflict until the first robot has counted four
 };
 
-/// How they are measured: no noise, no loss, and a resolution that only watches.
+/// How `timing_figures` are measured: without noise and loss, and with resolution off.
 struct timing_options {
   std::uint64_t seed = 1;
   std::size_t runs = 1000;
@@ -58,7 +58,7 @@ struct timing_options {
   duration latency = milliseconds(2);
 };
 
-/// A plan with Attack for one robot and Defend for whoever is left: what two robots need to fight.
+/// A plan with Attack for one robot and Defend for the others: all that two robots need to fight.
 [[nodiscard]] inline playbook duel_playbook() {
   plan_sketch sketch;
   sketch.id = {1};
@@ -116,15 +116,15 @@ private:
 
 }  // namespace detail
 
-/// Measures them through `agent` and the network.
+/// Measures these figures on whole robots and the network.
 [[nodiscard]] inline timing_figures measure_timing(timing_options const& options) {
   timing_figures f;
   playbook const book = duel_playbook();
   for (std::size_t run = 0; run < options.runs; ++run) {
     simulation_options team;
     team.seed = scatter(options.seed) + run;
-    team.agent.message_period = options.message_period;
-    team.agent.resolution = false;
+    team.robot.message_period = options.message_period;
+    team.robot.resolution = false;
     team.network = {options.latency, {}, 0, 0};
     team.sensor.ball_noise = team.sensor.ball_noise_permille = team.sensor.mate_noise = 0;
     auto engine = engine_for(team.seed, stream::world, 0);

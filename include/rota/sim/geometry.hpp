@@ -7,7 +7,7 @@
 
 namespace rota::sim {
 
-/// Lengths are whole micrometres, so that no decision of the simulator depends on how a compiler rounds.
+/// Lengths are whole micrometres, so that nothing in the simulation depends on how a compiler rounds.
 using micrometres = std::int64_t;
 
 /// For constants. @pre |m| at most 60
@@ -27,27 +27,27 @@ struct point {
   friend constexpr point operator-(point a, point b) noexcept { return {a.x - b.x, a.y - b.y}; }
 };
 
-/// |v|, rounded down. @pre |x|, |y| at most 60 m: then the square fits 53 bits, the root is correctly rounded by IEEE 754,
-/// and the result is the same everywhere.
+/// |v|, rounded down. @pre |x|, |y| at most 60 m: then the square fits 53 bits and IEEE 754 rounds the root correctly, so the
+/// result is the same everywhere.
 [[nodiscard]] inline micrometres length(point v) {
   ROTA_ASSERT(v.x <= metres(60) && v.x >= -metres(60) && v.y <= metres(60) && v.y >= -metres(60));
   return static_cast<micrometres>(std::sqrt(static_cast<double>(v.x * v.x + v.y * v.y)));
 }
 [[nodiscard]] inline micrometres distance(point a, point b) { return length(a - b); }
 
-/// v, made `to` long where it was `from` long. @pre from > 0; all at most 60 m
+/// v · to / from: a vector of length `from` gets length `to`. @pre from > 0; all at most 60 m
 [[nodiscard]] constexpr point rescaled(point v, micrometres to, micrometres from) noexcept {
   return {v.x * to / from, v.y * to / from};
 }
 
-/// The point at distance `d` from `centre` on the way to `other`; if both coincide, in direction x.
+/// The point at distance `d` from `centre` in the direction of `other`, or in direction x if the two coincide.
 [[nodiscard]] inline point towards(point centre, point other, micrometres d) {
   point const v = other - centre;
   micrometres const norm = length(v);
   return norm == 0 ? centre + point{d, 0} : centre + rescaled(v, d, norm);
 }
 
-/// `from`, moved at most `step` towards `target`.
+/// The point that is reached from `from` by a step towards `target` that is at most `step` long.
 [[nodiscard]] inline point moved(point from, point target, micrometres step) {
   micrometres const left = distance(from, target);
   return left <= step ? target : from + rescaled(target - from, step, left);

@@ -10,30 +10,30 @@
 
 namespace rota::sim {
 
-/// What a robot did or underwent.
+/// What happened to a robot, or what it did.
 enum class happening : unsigned char {
   entered,      ///< it began to execute the plan type, alone
-  deliberated,  ///< `change` is what deletion and reallocation changed, `cycles` and `detected` what the monitor said
-  heard_plan,   ///< a plan message of `other` was taken in; `change` is e_m
-  heard_claim,  ///< a claim of `other` was taken in; `change` is what it imposed
+  deliberated,  ///< `change` is by deletion and reallocation; `cycles` and `detected` are from the monitor
+  heard_plan,   ///< it received a plan message of `other`; `change` is e_m
+  heard_claim,  ///< it received a claim of `other`; `change` is what the claim imposed
   said_plan,    ///< it broadcast a plan message
   said_claim,   ///< it broadcast a claim: a new one, a new version, or a repetition
-  reign_began,  ///< it leads from now on: it `detected` a conflict just before, or answers a smaller claim
-  reign_ended   ///< it leads no more; `superseded` if because it obeys a greater claim now
+  reign_began,  ///< it leads from now on: it has just `detected` a conflict, or it answers a smaller claim
+  reign_ended   ///< it leads no more; `superseded` if it obeys a greater claim instead
 };
 
-/// One line of the log that an observer sees, in order of simulated time. Valid during the call only: copy what is needed.
+/// One record of the log that an observer sees, in order of simulated time. Valid during the call only: copy what you need.
 struct log_record {
   instant time;
   std::size_t robot = 0;  ///< index; its id is one more
   happening what{};
-  event<in<names>> const& change;           ///< of the robot's belief about the plan type; empty if nothing changed
+  event<in<names>> const& change;           ///< of the robot's belief about the plan type; may be empty
   allocation_atoms<names> const& believed;  ///< the belief afterwards
   world_state const& truth;
   std::size_t other = 0;
   std::uint32_t cycles = 0;
   bool detected = false;
-  bool leading = false;  ///< whether the robot leads, afterwards
+  bool leading = false;  ///< whether the robot leads afterwards
   bool superseded = false;
   std::optional<claim_outcome> claim{};
 };

@@ -16,7 +16,7 @@ namespace rota::sim {
 
 /// Lengths of episodes, exact to 0.1 ms.
 ///
-/// Memory: as disjoint intervals within a time T have at most √(2T) different lengths, an hour needs at most 8,486 entries.
+/// Memory: disjoint intervals within a time T have at most √(2T) different lengths, so an hour needs at most 8,486 entries.
 class length_statistics {
 public:
   void add(duration d) {
@@ -24,7 +24,7 @@ public:
     ++total_;
   }
   [[nodiscard]] std::uint64_t count() const noexcept { return total_; }
-  /// The least length that at least `percent` of all do not exceed, in ms; 0 if there are none.
+  /// The least length in ms that at least `percent` of all episodes do not exceed; 0 if there are none.
   [[nodiscard]] double percentile_ms(std::uint64_t percent) const {
     std::uint64_t const rank = (total_ * percent + 99) / 100;
     std::uint64_t seen = 0;
@@ -42,7 +42,7 @@ private:
   std::uint64_t total_ = 0;
 };
 
-/// What came out of one run. See `metrics` for what each number means.
+/// The figures of one run. `metrics` defines each of them.
 struct figures {
   duration measured{};
   duration in_conflict{};
@@ -68,23 +68,26 @@ struct figures {
 
 /// Counts while a simulation runs, from `begin` on.
 ///
-/// * in conflict: some two robots believe in different allocations (Def. 2, either direction), to the nanosecond; what
-///   happens at one instant is judged when all of it has happened.
-/// * episode: from the beginning of a conflict to the beginning of the first agreement that then lasts `calm`. At `begin`
-///   and at the end of the run it is cut off; the agreement that an episode ends with there may be shorter.
-/// * reign: of a robot that leads, from a beginning within the measured time, unless it obeys a greater claim within
-///   `calm` (of several claims made at once only the greatest is a reign), or the run ends before that.
-/// * right: at its first deliberation as a leader, that which began the reign included, the attackers it imposes are those
-///   of the best allocation under the true world.
+/// * in conflict: two of the robots believe in different allocations (Def. 2, either direction), measured to the nanosecond.
+///   Beliefs are compared when everything that happens at one instant has happened.
+/// * episode: from the beginning of a conflict to the beginning of the first agreement that then lasts `calm`. `begin` and
+///   the end of the run cut episodes off; the agreement at the end of the run may be shorter than `calm`.
+/// * reign: a robot begins to lead within the measured time, and `calm` later it has not turned to a greater claim and the
+///   run has not ended. So of several claims made at once only the greatest counts.
+/// * right: the leader imposes the attackers of the best allocation under the true world. This is judged at its first
+///   deliberation as a leader; the deliberation that began the reign counts as one.
 template <class Simulation>
 class metrics {
 public:
   static constexpr duration calm = milliseconds(300);
 
+  /// `simulation` must outlive the metrics.
   metrics(Simulation const& simulation, instant begin)
       : simulation_(simulation), begin_(begin), beliefs_(simulation.size()), reigns_(simulation.size()) {
     figures_.led.resize(simulation.size());
   }
+
+  metrics(Simulation const&&, instant) = delete;
 
   void operator()(log_record const& r) {
     pass_to(r.time);
@@ -117,7 +120,7 @@ public:
     }
   }
 
-  /// Closes what is open. To be called once, after the last `run`.
+  /// Closes what is open and returns the figures. Call it once, after the last `run`.
   [[nodiscard]] figures finish(instant end) {
     pass_to(end);
     if (episode_) figures_.episodes.add((conflict_ ? end : agreed_) - *episode_);
@@ -134,7 +137,7 @@ private:
     std::optional<bool> right;
   };
 
-  /// Everything before t has happened: accounts for the time up to t.
+  /// Accounts for the time up to t, when everything before t has happened.
   void pass_to(instant t) {
     if (t <= now_) return;
     if (stale_) {

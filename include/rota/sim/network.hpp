@@ -10,16 +10,17 @@
 
 namespace rota::sim {
 
-/// A wireless network, link by link. The defaults are those of a quiet 802.11 hall with broadcast datagrams.
+/// A wireless network. The defaults fit broadcast datagrams over 802.11 in a quiet hall.
 struct network_options {
   duration latency = milliseconds(2);  ///< the least delay
-  duration jitter = milliseconds(3);   ///< added, uniformly; a greater jitter than the period of messages reorders them
-  double loss = 0.02;                  ///< probability that a message does not arrive
-  double duplication = 0.002;          ///< probability that what arrives arrives twice, each copy with its own delay
+  duration jitter =
+      milliseconds(3);         ///< each delay is longer by up to this, uniformly; more than the message period reorders
+  double loss = 0.02;          ///< probability that a message does not arrive
+  double duplication = 0.002;  ///< probability that a message that arrives does so twice, with two delays
 };
 
-/// All directed links of a team. Each has a random stream of its own, and every message draws equally often from it:
-/// changing one probability changes nothing else.
+/// All directed links of a team. Each link has a random stream of its own, and every message draws equally often from it.
+/// So a change of one probability changes nothing else.
 class network {
 public:
   using delays = small_vector<duration, 2>;
@@ -29,7 +30,7 @@ public:
     for (std::size_t i = 0; i < robots * robots; ++i) links_.push_back(engine_for(seed, stream::network, i));
   }
 
-  /// When the copies of one message arrive, counted from now: none, one or two.
+  /// The delays after which the copies of one message arrive: none, one or two.
   [[nodiscard]] delays send(std::size_t from, std::size_t to) {
     random_engine& engine = links_[from * robots_ + to];
     bool const lost = chance(engine, options_.loss);

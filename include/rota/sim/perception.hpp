@@ -9,33 +9,33 @@
 
 namespace rota::sim {
 
-/// How robots see. The numbers are those of an omnidirectional camera with an imperfect distance calibration.
+/// How robots see. The numbers fit an omnidirectional camera whose distances are calibrated imperfectly.
 struct sensor_options {
-  micrometres exact_distance =
-      metres(3);                     ///< shorter distances to the ball are underestimated, longer ones overestimated,
-  std::int64_t bias_permille = 400;  ///< by less than this
-  micrometres ball_noise = metres(0.01);  ///< standard deviation of the seen ball in x and y, at distance 0
-  std::int64_t ball_noise_permille = 20;  ///< added to it, of the distance
-  micrometres mate_noise = metres(0.03);  ///< of a team mate's reported place, in x and y
-  /// Robots track what they see: an error moves by 1/tracking of the way to that of each new frame. With 1 they do not:
-  /// then a leader six metres off sees its ball jump by more than a plan's hysteresis of 10 cm, changes its mind with
-  /// every other frame, and so keeps an episode of conflict open for up to ten seconds. Hysteresis must exceed noise.
+  micrometres exact_distance = metres(3);  ///< a nearer ball seems nearer than it is, a farther one farther
+  std::int64_t bias_permille = 400;        ///< by less than this fraction of the distance
+  micrometres ball_noise = metres(0.01);   ///< standard deviation of the seen ball in x and y, at distance 0
+  std::int64_t ball_noise_permille = 20;   ///< this fraction of the distance is added to `ball_noise`
+  micrometres mate_noise = metres(0.03);   ///< standard deviation of a team mate's reported place in x and y
+  /// Robots track what they see: with each frame an error moves 1/tracking of the way to the error of that frame. At 1 they
+  /// do not track. Then a leader that is six metres away sees the ball jump by more than a plan's hysteresis of 10 cm,
+  /// changes its choice with every other frame, and keeps an episode of conflict open for up to ten seconds. The hysteresis
+  /// must exceed the noise.
   std::int64_t tracking = 4;
 };
 
-/// The distance at which a ball `d` away is seen: g(d) = d + bias · d · (d − d₀) / (d + d₀). @pre 0 ≤ d ≤ 60 m
+/// The distance at which a robot sees a ball at distance d: d + bias · d · (d − d₀) / (d + d₀). @pre 0 ≤ d ≤ 60 m
 [[nodiscard]] constexpr micrometres seen_distance(sensor_options const& s, micrometres d) noexcept {
   micrometres const d0 = s.exact_distance;
   return d + d * (d - d0) / (d + d0) * s.bias_permille / 1000;
 }
 
-/// What one robot believes when it deliberates: the belief base F of the plan's utilities.
+/// What one robot believes of the world when it deliberates: the belief base F that the plan's utilities read.
 struct perceived {
   point ball;
   std::vector<point> robots;  ///< index 0 is the robot with id 1
 };
 
-/// What a robot would believe that knows everything.
+/// Writes the beliefs of a robot that knows the truth.
 inline void know(world_state const& truth, perceived& into) {
   into.ball = truth.ball;
   into.robots.clear();
@@ -50,8 +50,8 @@ public:
     ROTA_ASSERT(options.tracking >= 1);
   }
 
-  /// Sees the ball relative to itself, so that a wrong pose displaces it; hears from its mates where they believe to be.
-  /// Draws equally often whatever it sees. O(robots).
+  /// Sees the ball relative to itself, so that a wrong pose displaces it, and hears from its mates where they believe they
+  /// are. Draws equally often whatever it sees. O(robots).
   void look(world_state const& truth, perceived& into) {
     robot_state const& me = truth.robots[self_];
     point const self = me.position + me.pose_error;
@@ -70,11 +70,11 @@ public:
     note(into.ball);
   }
 
-  /// A digest of everything seen so far: equal digests, equal streams.
+  /// A digest of everything seen so far.
   [[nodiscard]] std::uint64_t digest() const noexcept { return digest_; }
 
 private:
-  /// The error of a tracked thing after one more frame, whose own error has deviation `sigma`.
+  /// The error of a tracked position after one more frame, whose own error has the standard deviation `sigma`.
   point track(point& error, micrometres sigma) {
     error.x += (noise(engine_, sigma) - error.x) / options_.tracking;
     error.y += (noise(engine_, sigma) - error.y) / options_.tracking;

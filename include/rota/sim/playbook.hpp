@@ -16,7 +16,7 @@ namespace rota::sim {
 
 using names = runtime_vocabulary;
 
-/// A plan as a file describes it: everything but a utility.
+/// A plan as a file describes it, which leaves out the utility.
 struct plan_sketch {
   struct task {
     names::task id{};
@@ -31,14 +31,14 @@ struct plan_sketch {
   double hysteresis = 0;
 };
 
-/// How much a task pays, in metres: Attack the diagonal of the field minus the agent's distance to the ball; every other
-/// task a fraction of the diagonal minus the agent's distance to the home of the task. So the robot nearest to the ball
-/// attacks, unless that costs the others sixteen times as many metres; a plan's hysteresis is metres saved.
+/// How much a task pays, in metres. Attack pays the diagonal of the field minus the robot's distance to the ball; every other
+/// task pays a fraction of the diagonal minus the robot's distance to the home of the task. So the robot nearest to the ball
+/// attacks, unless that costs the others sixteen times as many metres. A plan's hysteresis counts metres saved.
 struct pay_options {
   std::int64_t other = 16;  ///< every other task pays a sixteenth
 };
 
-/// A plan type ready to be played: the plans of files, with soccer utilities read from each robot's own perception.
+/// A plan type ready to be played: the plans of files with soccer utilities, which read the robot's own perception.
 struct playbook {
   plan_type<names, perceived> type;
   std::vector<plan_sketch> plans;      ///< ascending by id, as in `type`
@@ -52,8 +52,8 @@ struct playbook {
   }
 };
 
-/// The task whose name contains "Attack" (the first in the file); otherwise the first that needs somebody; otherwise the
-/// first. @pre the plan has a task
+/// The first task whose name contains "Attack"; without one, the first task that needs somebody; without that, the first.
+/// @pre the plan has a task
 [[nodiscard]] inline names::task attack_task(plan_sketch const& plan) {
   for (auto const& t : plan.tasks)
     if (t.name.find("Attack") != std::string::npos) return t.id;
@@ -62,20 +62,20 @@ struct playbook {
   return plan.tasks.front().id;
 }
 
-/// Where the k-th task that is not Attack is at home, counted in the file's order.
+/// The home of the k-th task that is not Attack, counted in the file's order.
 [[nodiscard]] constexpr point home_of(std::size_t k) noexcept {
   constexpr point homes[] = {{metres(-6), metres(0)}, {metres(-2), metres(3)},  {metres(3), metres(-3)},
                              {metres(4), metres(3)},  {metres(-2), metres(-3)}, {metres(0), metres(0)}};
   return homes[k % (sizeof homes / sizeof *homes)];
 }
 
-/// (diagonal − d) / divisor in metres, at least 0, in whole units of 2^-20: no rounding of a compiler decides who attacks.
+/// (diagonal − d) / divisor in metres, at least 0, in whole units of 2^-20, so that no compiler's rounding decides who attacks.
 [[nodiscard]] constexpr double pay(micrometres d, std::int64_t divisor) noexcept {
   constexpr std::int64_t unit = 1 << 20;
-  return static_cast<double>(std::max<micrometres>(field_diagonal - d, 0) * unit / metres(1) / divisor) / unit;
+  return static_cast<double>((std::max<micrometres>)(field_diagonal - d, 0) * unit / metres(1) / divisor) / unit;
 }
 
-/// The utility described at `pay_options`. Robots are called 1, 2, 3, …
+/// The utility that `pay_options` describes. The robots are called 1, 2, 3, …
 [[nodiscard]] inline additive_utility<names, perceived> soccer_utility(plan_sketch const& plan, pay_options const& w) {
   std::vector<std::pair<names::task, std::optional<point>>> homes;
   std::size_t others = 0;
@@ -92,7 +92,7 @@ struct playbook {
   };
 }
 
-/// The plan type with these plans, or what is wrong with them in words.
+/// The plan type with these plans, or in words why they cannot be played.
 [[nodiscard]] inline result<playbook, std::string>
 make_playbook(names::plan_type type, std::vector<plan_sketch> sketches, pay_options const& w = {}) {
   std::sort(sketches.begin(), sketches.end(), [](plan_sketch const& a, plan_sketch const& b) { return a.id < b.id; });

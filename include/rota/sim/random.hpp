@@ -8,10 +8,10 @@
 
 namespace rota::sim {
 
-/// Boost's, because the distributions of the standard differ between libraries: equal seeds must give equal bytes.
+/// Boost's: equal seeds must give equal bytes, and the distributions of the standard differ between libraries.
 using random_engine = boost::random::mt19937_64;
 
-/// What a stream of random numbers is for. Streams never mix, so that changing one thing leaves the others as they were.
+/// The use of a stream of random numbers. Streams never mix, so a change in one use leaves the others as they were.
 enum class stream : std::uint64_t { clock = 1, world, perception, network };
 
 /// The finaliser of SplitMix64: a bijection that scatters neighbouring numbers.
@@ -22,7 +22,7 @@ enum class stream : std::uint64_t { clock = 1, world, perception, network };
   return x ^ (x >> 31);
 }
 
-/// The engine of one stream: of a robot, a link, or (index 0) of the world.
+/// The engine of one stream. `index` is the robot or the link, or 0 for the world.
 [[nodiscard]] inline random_engine engine_for(std::uint64_t seed, stream what, std::uint64_t index) {
   return random_engine(scatter(scatter(scatter(seed) ^ static_cast<std::uint64_t>(what)) ^ index));
 }
@@ -32,14 +32,15 @@ enum class stream : std::uint64_t { clock = 1, world, perception, network };
   return boost::random::uniform_int_distribution<std::int64_t>(low, high)(engine);
 }
 
-/// True with probability p. Draws once whatever p is, so that streams of runs with different p stay aligned.
+/// True with probability p. Draws once whatever p is, so that runs with different p stay aligned.
 [[nodiscard]] inline bool chance(random_engine& engine, double p) {
   return boost::random::uniform_01<double>()(engine) < p;
 }
 
-/// Bell-shaped with mean 0 and standard deviation `sigma`, within ±3.5 sigma: the sum of four uniform numbers.
+/// Nearly normal: the sum of four uniform numbers, with mean 0 and standard deviation `sigma`, within ±3.5 sigma.
 ///
-/// One draw and integers only. The normal distribution needs logarithms, whose last bits differ between C libraries.
+/// Takes one draw and computes in integers. A true normal distribution needs logarithms, whose last bits differ between C
+/// libraries.
 [[nodiscard]] inline std::int64_t noise(random_engine& engine, std::int64_t sigma) {
   std::uint64_t const draw = engine();
   auto const sum =

@@ -12,7 +12,7 @@
 
 namespace rota::sim {
 
-/// One of the scenarios, played by a script that reads nothing but its own random stream. Deterministic by seed.
+/// One of the scenarios, played by a script that reads only its own random stream. The seed decides everything.
 class scripted_world {
 public:
   /// @pre 2 ≤ robots ≤ max_robots
@@ -38,7 +38,7 @@ public:
   [[nodiscard]] world_state const& state() const noexcept { return state_; }
 
 private:
-  /// How the script leads one robot: it wanders within `roam` of its anchor.
+  /// How the script moves one robot: it wanders within `roam` of its anchor.
   struct body {
     point anchor;
     micrometres roam = 0;
@@ -70,7 +70,7 @@ private:
   [[nodiscard]] point somewhere(micrometres half_x, micrometres half_y) {
     return {uniform(engine_, -half_x, half_x), uniform(engine_, -half_y, half_y)};
   }
-  /// Another robot than a, and than b.
+  /// A robot that is neither a nor b.
   [[nodiscard]] std::size_t other_than(std::size_t a, std::size_t b) {
     auto const n = static_cast<std::int64_t>(robots());
     for (;;) {
@@ -117,7 +117,7 @@ private:
     }
     switch (scenario_) {
     case scenario::ball_fight: {
-      // One draw a statement: in which order a call evaluates its arguments is the compiler's choice.
+      // One draw per statement: the compiler chooses in which order a call evaluates its arguments.
       point const d = direction();
       put(x, ball + rescaled(d, draw(options_.fight), metres(1)));
       point const e = opposite(d);
@@ -143,7 +143,7 @@ private:
 
   // Play.
 
-  /// Something that comes, stays for a while, and goes.
+  /// A fight, a phantom or a bad localisation, which comes and goes.
   struct incident {
     bool active = false;
     std::size_t robot = 0;
@@ -172,7 +172,7 @@ private:
     move_team();
   }
 
-  /// One tick of an incident: two draws always, and one more when it begins.
+  /// One tick of an incident. Draws twice, and once more when the incident begins.
   template <class Begin, class End>
   void change(incident& what, double arrival, duration mean, Begin begin, End end) {
     bool const arrives = chance(engine_, arrival);
@@ -187,14 +187,14 @@ private:
     }
   }
 
-  /// The nearest team mate runs to the other side of the ball, which is stuck between the two.
+  /// The nearest team mate runs to the other side of the ball, so that the ball is stuck between the two.
   void begin_fight() {
     fight_.robot = nearest(chaser_);
     fight_side_ = opposite(unit(state_.robots[chaser_].position - state_.ball));
     fight_gap_ = draw(options_.fight);
     chaser_gap_ = draw(options_.fight);
   }
-  /// Half of the phantoms lie near the robot that sees them, half anywhere, the first two metres of audience included.
+  /// Half of the phantoms lie near the robot that sees them, half anywhere on the field or up to two metres beside it.
   void begin_phantom() {
     bool const nearby = chance(engine_, 0.5);
     robot_state& r = state_.robots[phantom_.robot];
@@ -219,7 +219,7 @@ private:
     state_.ball = moved(state_.ball, ball_goal_, per_tick(flying_ ? options_.kick_speed : options_.dribble_speed));
   }
 
-  /// The truly nearest robot goes to the ball, the others keep the formation.
+  /// The robot that is truly nearest goes to the ball; the others keep the formation.
   void move_team() {
     if (!fight_.active && now_ >= next_chase_) {
       std::size_t const closest = nearest(robots());

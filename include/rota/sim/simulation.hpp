@@ -14,26 +14,26 @@
 
 namespace rota::sim {
 
-/// A simulated team. The phases of loops and messages come from `seed`, as does all noise.
+/// A simulated team. The seed decides the phases of loops and messages, and all noise.
 struct simulation_options {
   std::uint64_t seed = 1;
-  robot_options agent;  ///< `first_message` is set by each robot's clock
+  robot_options robot;  ///< of every robot; each robot's clock sets `first_message`
   clock_options clock;
   network_options network;
   sensor_options sensor;
 };
 
-/// A team of robots in virtual time: discrete events, a scripted world, the very `robot` that a real robot would run.
+/// A team of robots in virtual time: discrete events, a scripted world, and the same `robot` that a real robot runs.
 ///
-/// Deterministic: events are totally ordered by time, then kind, then robot, then order of creation. The streams of
-/// world, perceptions and network are independent of what the agents decide.
+/// Deterministic: events are totally ordered by time, then kind, then robot, then order of creation. What the robots decide
+/// changes nothing in the random streams of world, perceptions and network.
 /// Memory: bounded by robots and messages under way.
 template <world World, class Monitor = cycle_monitor<names>>
 class simulation {
 public:
   using robot_type = rota::robot<names, Monitor>;
 
-  /// `book` must outlive the simulation.
+  /// `book` must outlive the simulation. Each robot lives once: its incarnation is 1.
   simulation(playbook const& book, World world, simulation_options const& options = {})
       : book_(book),
         world_(std::move(world)),
@@ -41,11 +41,11 @@ public:
         network_(options.network, members_.size(), options.seed) {
     for (std::size_t i = 0; i < members_.size(); ++i) {
       auto engine = engine_for(options.seed, stream::clock, i);
-      robot_clock const clock(options.clock, options.agent.message_period, engine);
-      robot_options mine = options.agent;
+      robot_clock const clock(options.clock, options.robot.message_period, engine);
+      robot_options mine = options.robot;
       mine.first_message = clock.first_message();
       robots_.push_back({clock,
-                         robot_type(members_.agents()[i], members_.agents(), mine),
+                         robot_type(members_.agents()[i], members_.agents(), incarnation{1}, mine),
                          sensor(options.sensor, i, options.seed),
                          {},
                          clock.first_loop(),
@@ -55,7 +55,9 @@ public:
     }
   }
 
-  /// Plays everything up to and including simulated time `until`, and tells the observer. May be called again to go on.
+  simulation(playbook&&, World, simulation_options const& = {}) = delete;
+
+  /// Plays everything up to and including simulated time `until`, and tells the observer. Call it again to go on.
   template <observer Observer>
   void run(instant until, Observer&& observe) {
     if (!started_) start(observe);
@@ -80,7 +82,7 @@ public:
   [[nodiscard]] playbook const& book() const noexcept { return book_; }
   [[nodiscard]] world_state const& truth() const noexcept { return world_.state(); }
   [[nodiscard]] robot_type const& robot(std::size_t i) const noexcept { return robots_[i].mind; }
-  /// Over all perceptions of all robots so far: does not depend on the protocol.
+  /// A digest of all perceptions of all robots so far. It does not depend on the protocol.
   [[nodiscard]] std::uint64_t perception_digest() const noexcept {
     std::uint64_t digest = 0;
     for (auto const& r : robots_) digest = scatter(digest ^ r.eyes.digest());
@@ -96,8 +98,8 @@ private:
     sensor eyes;
     perceived belief;
     instant next_loop;    // on its own clock
-    instant due;          // what the wakeup is for, on its own clock
-    instant wakeup;       // the transmission that counts, or never; others in the queue are void
+    instant due;          // when it has to speak next, on its own clock
+    instant wakeup;       // the same in simulated time, or never; other transmissions in the queue are void
     std::uint64_t reign;  // the number of the claim it leads with, or 0
   };
 
@@ -115,7 +117,7 @@ private:
     return a.sequence > b.sequence;
   }
 
-  /// A broadcast under way; its place is used again when the last copy has arrived.
+  /// A broadcast under way. When the last copy has arrived, its slot is used again.
   struct broadcast {
     message<names> content;
     std::uint32_t sender = 0;
@@ -151,9 +153,9 @@ private:
     more.cycles = d.cycles;
     more.detected = d.detected.has_value();
     if (d.deleted.empty()) {
-      tell(observe, i, happening::deliberated, d.event, more);
+      tell(observe, i, happening::deliberated, d.event(), more);
     } else {
-      tell(observe, i, happening::deliberated, compose(d.deleted, d.event), more);
+      tell(observe, i, happening::deliberated, compose(d.deleted, d.event()), more);
     }
     note_reign(i, observe, d.reign_began);
     speak(i, observe);
@@ -163,15 +165,14 @@ private:
   void deliver(entry const& e, Observer& observe) {
     broadcast& b = messages_[e.slot];
     robot_record& r = robots_[e.robot];
-    auto const answer = r.mind.receive(b.content, r.clock.local(now_));
+    auto answer = r.mind.receive(b.content, r.clock.local(now_));
     details more;
     more.other = b.sender;
     more.claim = answer.claim;
     bool const plan = std::holds_alternative<plan_message<names>>(b.content);
     if (--b.copies == 0) free_.push_back(e.slot);
-    static constexpr event<in<names>> nothing;
-    tell(observe, e.robot, plan ? happening::heard_plan : happening::heard_claim,
-         answer.changes.empty() ? nothing : answer.changes[0].event, more);
+    auto const change = answer.changes.empty() ? std::move(answer.imposed) : answer.changes[0].part.event();
+    tell(observe, e.robot, plan ? happening::heard_plan : happening::heard_claim, change, more);
     note_reign(e.robot, observe);
     speak(e.robot, observe);
   }
@@ -184,14 +185,14 @@ private:
     speak(e.robot, observe);
   }
 
-  /// Says what is due, and wakes up when there is more to say.
+  /// Sends what is due, and sets the wakeup for what comes next.
   template <class Observer>
   void speak(std::size_t i, Observer& observe) {
     robot_record& r = robots_[i];
     instant const local = r.clock.local(now_);
     while (r.mind.next_due() <= local) {
       auto said = r.mind.next_message(local);
-      note_reign(i, observe);  // what ran out just before
+      note_reign(i, observe);  // a reign may have ended just before
       if (!said) break;
       bool const plan = std::holds_alternative<plan_message<names>>(*said);
       send(i, *std::move(said));

@@ -10,21 +10,21 @@
 
 namespace rota::sim {
 
-/// What is true of one robot, and what deceives it.
+/// The truth about one robot, and its errors.
 struct robot_state {
   point position;
-  point pose_error;              ///< how far off it believes itself to be, and says so to the others
-  std::optional<point> phantom;  ///< where it sees a ball that is none, instead of the true one
+  point pose_error;              ///< it believes that it is so far from its position, and tells the others so
+  std::optional<point> phantom;  ///< it sees a ball here instead of the true one
 };
 
-/// What is true.
+/// The truth about ball and robots.
 struct world_state {
   point ball;
   std::vector<robot_state> robots;
 };
 
-/// A world runs by itself: nothing the robots decide changes it. So runs with and without conflict resolution see the
-/// same, bit for bit.
+/// A world that runs by itself: what the robots decide changes nothing in it. So robots see the same, bit for bit, in runs
+/// with and without conflict resolution.
 template <class W>
 concept world = std::copyable<W> && requires(W w, W const& c, instant t) {
   w.advance(t);  // to simulated time t, never backwards
@@ -33,7 +33,7 @@ concept world = std::copyable<W> && requires(W w, W const& c, instant t) {
 
 inline constexpr std::size_t max_robots = 11;
 
-/// Where a team lines up: own half to the left. @pre robot < max_robots
+/// Where a robot lines up; its own half is on the left. @pre robot < max_robots
 [[nodiscard]] inline point formation_spot(std::size_t robot) {
   constexpr point spots[max_robots] = {
       {metres(-7), metres(0)},     {metres(-3), metres(2.5)}, {metres(-3), metres(-2.5)}, {metres(2.5), metres(3.5)},
@@ -43,8 +43,8 @@ inline constexpr std::size_t max_robots = 11;
   return spots[robot];
 }
 
-/// Two robots and a still ball. Until `begin` one is near it and both agree; from then on both are equally close, on
-/// opposite sides, and each sees itself as the closer one.
+/// Two robots and a still ball. Until `begin` one robot is close to the ball and both agree. From then on both are equally
+/// close, on opposite sides, and each sees itself as the closer one.
 class duel_world {
 public:
   explicit duel_world(instant begin) : begin_(begin) {

@@ -11,20 +11,20 @@ namespace rota {
 
 /// What hearing a claim did.
 enum class claim_outcome : unsigned char {
-  adopted,    ///< a new claim, now obeyed
-  revised,    ///< a new version of the obeyed claim
-  repeated,   ///< nothing new; at most the expiry came nearer
-  expired,    ///< that claim, or a later one of its leader, has already ended here: it never revives
-  outranked,  ///< one leads or obeys with a greater stamp; a leader answers with its own claim
-  challenged  ///< one's own stamp is greater: time to claim, once for each claim
+  adopted,    ///< the receiver obeys this claim from now on
+  revised,    ///< the receiver obeys this claim already, and this is a newer version of it
+  repeated,   ///< nothing new; at most the claim ends sooner
+  expired,    ///< this claim, or a later one of its leader, has already ended here; it is never obeyed again
+  outranked,  ///< the receiver leads or obeys with a greater stamp; if it leads, it repeats its own claim
+  challenged  ///< nobody rules and the receiver's own stamp is greater: it answers with a claim, once for each claim
 };
 
-/// One agent's view of who rules one plan type: nobody, itself, or the leader it obeys (section 4, the bully algorithm).
+/// One robot's view of who rules one plan type: nobody, itself, or the leader that it obeys (section 4, the bully algorithm).
 ///
-/// Invariants, over any loss, duplication, reordering and delay: at most one leader is obeyed; while one is obeyed, never
-/// a smaller stamp; copies of one claim expire at the minimum over the copies; what has expired never revives; no claim is
-/// answered by more than one reign. So a reign ends at every follower no later than at its leader plus the greatest
-/// message delay, and delayed copies prolong nothing.
+/// Invariants, whatever is lost, duplicated, reordered or delayed: the robot obeys at most one leader; while it obeys, it
+/// turns to no smaller stamp; copies of one claim end at the earliest end that any of them names; a claim that has ended is
+/// never obeyed again; a claim is answered by at most one reign. Hence a reign ends at every follower no later than at its
+/// leader plus the greatest message delay, and a delayed copy prolongs nothing.
 template <vocabulary V = runtime_vocabulary>
 class authority {
 public:
@@ -33,20 +33,20 @@ public:
   [[nodiscard]] bool leading() const noexcept { return phase_ == phase::leading; }
   [[nodiscard]] bool obeying() const noexcept { return phase_ == phase::obeying; }
   [[nodiscard]] bool active() const noexcept { return leading() || obeying(); }
-  /// The claim in force: one's own, or the obeyed one. @pre `active()`
-  [[nodiscard]] claim<V> const& current() const noexcept {
+  /// The claim in force: the robot's own, or the one it obeys. @pre `active()`
+  [[nodiscard]] claim<V> const& current() const& noexcept {
     ROTA_ASSERT(active());
     return claim_;
   }
+  claim<V> const& current() const&& = delete;
   /// When the claim in force ends here. @pre `active()`
   [[nodiscard]] instant expiry() const noexcept {
     ROTA_ASSERT(active());
     return expiry_;
   }
 
-  /// Begins to lead with a claim of one's own, first due at `due`. Its number is one more than that of the last.
-  /// @pre `!leading()`
-  void lead(typename V::plan_type type, allocation_atoms<V> atoms, claim_stamp<V> mine, std::uint64_t incarnation,
+  /// Begins to lead. The robot's claim gets its next number and is first due at `due`. @pre `!leading()`
+  void lead(typename V::plan_type type, allocation_atoms<V> atoms, claim_stamp<V> mine, rota::incarnation incarnation,
             instant now, instant due, duration reign) {
     ROTA_ASSERT(!leading());
     supersede();
@@ -57,13 +57,13 @@ public:
     said_ = false;
   }
 
-  /// Whether c has the identity of the claim in force and another stamp. A stamp is frozen for a claim: such a message
-  /// is a forgery or a fault.
+  /// Whether c has the identity of the claim in force and another stamp. The stamp of a claim never changes, so such a
+  /// message is forged or faulty.
   [[nodiscard]] bool contradicts(claim<V> const& c) const {
     return active() && claim_.leader == c.leader && identity_of(claim_) == identity_of(c) && claim_.stamp != c.stamp;
   }
 
-  /// Hears a claim that is well-formed and from somebody else. `mine` is one's own stamp, were one to claim now.
+  /// Takes in a claim that is well-formed and from somebody else. `mine` is the stamp that the robot's own claim would have.
   /// @pre `!contradicts(c)`
   claim_outcome hear(claim<V> const& c, claim_stamp<V> const& mine, instant now) {
     if (leading() && c.stamp < claim_.stamp) {
@@ -95,26 +95,27 @@ public:
     return claim_outcome::adopted;
   }
 
-  /// Ends the claim in force if its time is over; whether it did.
+  /// Ends the claim in force if its time is over. True if the robot led or obeyed until now.
   bool expire(instant now) {
     if (phase_ == phase::none || now < expiry_) return false;
     bool const was_active = active();
     end();
     return was_active;
   }
-  /// Ends the claim in force, if any; no copy of it will revive.
+  /// Ends the claim in force, if any. No copy of it will be obeyed again.
   void end() {
     if (phase_ == phase::none) return;
     bury(claim_.leader, identity_of(claim_));
     phase_ = phase::none;
   }
-  /// Obeys no longer (the leader seems to be gone, or oneself is), unless its claim is heard again before it expires.
+  /// Stops obeying: the leader seems to be gone, or the robot itself leaves. If it hears the claim again before it expires,
+  /// it obeys again.
   void release() {
     if (obeying()) phase_ = phase::released;
   }
 
-  /// The leader has deliberated: a change is a new version; that, and what was never said, is due at once.
-  /// @pre `leading()`
+  /// Takes in what the leader has deliberated. A changed allocation is a new version. The claim is due at once if it is new
+  /// or was never sent. @pre `leading()`
   void revise(allocation_atoms<V> const& atoms, instant now) {
     ROTA_ASSERT(leading());
     if (claim_.atoms == atoms && said_) return;
@@ -123,7 +124,7 @@ public:
     next_repeat_ = now;
   }
 
-  /// When the leader has to speak next; `never` for everybody else.
+  /// When the leader has to send its claim next; `never` for everybody else.
   [[nodiscard]] instant next_due() const noexcept { return leading() ? next_repeat_ : never; }
   /// The leader's claim if it is due, with the remaining time filled in. O(|claim|).
   [[nodiscard]] std::optional<claim<V>> next_claim(instant now, duration period) {
@@ -141,17 +142,18 @@ private:
 
   /// Orders the claims of one leader.
   struct identity {
-    std::uint64_t incarnation = 0;
+    rota::incarnation incarnation{};
     std::uint64_t number = 0;
     friend auto operator<=>(identity const&, identity const&) = default;
   };
+  /// The greatest identity among the claims of one leader that have ended here.
   struct grave {
     agent_id leader{};
     identity last;
     friend bool operator==(grave const&, grave const&) = default;
   };
 
-  /// What is in force gives way to a greater claim, for good; what was released may still be in force elsewhere.
+  /// Ends the claim in force for good. A released claim is not buried: it may still be in force elsewhere.
   void supersede() {
     if (active()) end();
   }
@@ -172,7 +174,7 @@ private:
   instant expiry_{};
   instant next_repeat_{};
   bool said_ = false;              // the claim was sent at least once
-  std::uint64_t numbers_ = 0;      // claims made by this agent
+  std::uint64_t numbers_ = 0;      // claims made by this robot
   small_vector<grave, 4> graves_;  // ascending by leader; at most one per agent of the roster
 };
 

@@ -4,12 +4,20 @@
 
 namespace rota {
 
+struct incarnation;
+struct robot_options;
 template <vocabulary V>
 struct plan_message;
 template <vocabulary V>
 struct claim;
 template <vocabulary V>
+struct part_change;
+template <vocabulary V>
 class belief;
+template <vocabulary V>
+struct reception;
+template <vocabulary V>
+struct decision;
 template <vocabulary V>
 class cycle_monitor;
 template <vocabulary V>

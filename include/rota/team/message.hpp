@@ -2,6 +2,7 @@
 
 #include <rota/core/time.hpp>
 #include <rota/model/allocation.hpp>
+#include <rota/team/incarnation.hpp>
 
 #include <compare>
 #include <cstdint>
@@ -10,15 +11,15 @@
 
 namespace rota {
 
-/// Orders the messages of one sender over its whole life: restarts first, then messages within one life.
+/// Orders the messages of one sender over all its lives: first by restart, then within one life.
 struct message_number {
-  std::uint64_t incarnation = 0;  ///< grows with every restart of the sender
-  std::uint64_t sequence = 0;     ///< grows with every message of one incarnation
+  rota::incarnation incarnation{};  ///< grows with every restart of the sender
+  std::uint64_t sequence = 0;       ///< grows with every message of one incarnation
 
   friend auto operator<=>(message_number const&, message_number const&) = default;
 };
 
-/// The plan-task-state triple an agent executes.
+/// The plan, task and state that an agent executes.
 template <vocabulary V = runtime_vocabulary>
 struct placement {
   typename V::plan plan{};
@@ -28,8 +29,8 @@ struct placement {
   friend auto operator<=>(placement const&, placement const&) = default;
 };
 
-/// What a sender does about one plan type. Without a place: it takes part but has no task, which differs from not taking
-/// part (the type is then not listed at all).
+/// What a sender does about one plan type. Without a place it takes part and has no task. That differs from not taking
+/// part: a sender that takes no part does not list the type at all.
 template <vocabulary V = runtime_vocabulary>
 struct participation {
   typename V::plan_type type{};
@@ -38,20 +39,20 @@ struct participation {
   friend bool operator==(participation const&, participation const&) = default;
 };
 
-/// A plan message: a snapshot of everything its sender executes. A type it does not list is one it does not execute.
-/// Says nothing about other agents: a sender is trusted about itself and about nobody else.
+/// A plan message: a snapshot of everything its sender executes. The sender does not execute a type that is not listed.
+/// It says nothing about other agents: a sender is trusted about itself and about nobody else.
 template <vocabulary V = runtime_vocabulary>
 struct plan_message {
   typename V::agent sender{};
   message_number number;
-  small_vector<participation<V>, 4> types;
+  small_vector<participation<V>, 4> types;  ///< strictly ascending by type
 
   friend bool operator==(plan_message const&, plan_message const&) = default;
 };
 
-/// What decides between claimants: totally ordered, computed once and frozen for a claim, never NaN.
+/// Decides between claimants: the greater stamp leads. Totally ordered, computed once for a claim and then frozen.
 ///
-/// With equal confidence, as by default, this is the paper's rule: the greatest id leads.
+/// With equal confidence, the default, this is the paper's rule: the greatest id leads.
 template <vocabulary V = runtime_vocabulary>
 struct claim_stamp {
   std::uint32_t confidence = 0;
@@ -62,15 +63,16 @@ struct claim_stamp {
 
 /// A leader's claim of authority over one plan type (section 4, the bully algorithm).
 ///
-/// Identity is (leader, incarnation, number); the version counts the changes of its allocation. Agents that take part
-/// and have no atom are idle by the leader's will. No clock is shared: a claim carries the time its reign has left.
+/// (leader, incarnation, number) identifies a claim; the version counts how often its allocation has changed. The leader
+/// wants agents that take part and have no atom to be idle. Robots share no clock, so a claim carries the time that its
+/// reign has left.
 template <vocabulary V = runtime_vocabulary>
 struct claim {
   typename V::plan_type type{};
   allocation_atoms<V> atoms;
   claim_stamp<V> stamp;
   typename V::agent leader{};
-  std::uint64_t incarnation = 0;
+  rota::incarnation incarnation{};
   std::uint64_t number = 0;
   std::uint64_t version = 0;
   duration remaining;
@@ -78,7 +80,7 @@ struct claim {
   friend bool operator==(claim const&, claim const&) = default;
 };
 
-/// Everything an agent says.
+/// Everything that a robot sends.
 template <vocabulary V = runtime_vocabulary>
 using message = std::variant<plan_message<V>, claim<V>>;
 

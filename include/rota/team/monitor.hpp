@@ -1,8 +1,8 @@
 #pragma once
 
-#include <rota/algebra/apply.hpp>
 #include <rota/core/time.hpp>
 #include <rota/model/allocation.hpp>
+#include <rota/team/belief.hpp>
 #include <rota/team/cycle.hpp>
 
 #include <algorithm>
@@ -13,53 +13,55 @@ namespace rota {
 
 /// When a monitor fires, and what it forgets.
 struct monitor_options {
-  std::uint32_t cycles = 4;           ///< n of the paper: so many subsequent cycles are a conflict that does not heal
-  duration pending_age = seconds(1);  ///< a message event that no reallocation answered in this time is forgotten
+  std::uint32_t cycles = 4;  ///< n of the paper: after so many subsequent cycles the conflict counts as lasting
+  duration pending_age = seconds(1);  ///< a change that no deliberation has reversed for so long is forgotten
 
   friend bool operator==(monitor_options const&, monitor_options const&) = default;
 };
 
-/// What one deliberation meant to a monitor.
+/// What a monitor says about one deliberation.
 template <vocabulary V>
 struct monitor_verdict {
-  std::uint32_t cycles = 0;                   ///< cycles that this deliberation completed
-  std::optional<typename V::agent> detected;  ///< the sender whose n-th subsequent cycle it was (the least, if several)
+  std::uint32_t cycles = 0;  ///< cycles that this deliberation completed
+  std::optional<typename V::agent>
+      detected;  ///< the sender whose n-th subsequent cycle this was; the least, if several
 };
 
-/// The default monitor: one counter per sender, which loss, duplicates and third agents do not disturb.
+/// The default monitor: one counter per sender. Lost messages, duplicates and third agents do not disturb it.
 ///
-/// A message event from b opens a *pending* (b, b's old part); a deliberation that restores the old part completes a
-/// cycle; n subsequent ones are a detection. The rules, and the runs on which the literal reading fails, are in
-/// docs/monitor.md. The agent drops old and duplicate messages before they come here (rule i), and calls `clear` on
-/// entering or leaving authority and on leaving the plan type (rule vi).
+/// When a message changes b's part, the monitor remembers the old part. A deliberation that restores it completes a cycle;
+/// n subsequent cycles are a detection. docs/monitor.md has the rules, and the runs on which the literal reading fails. The
+/// robot drops old and duplicate messages before they come here (rule i). It calls `clear` when it begins or ceases to lead
+/// or obey, and when it leaves the plan type (rule vi).
 template <vocabulary V = runtime_vocabulary>
 class cycle_monitor {
 public:
   using agent_id = typename V::agent;
-  using part = std::optional<in<V>>;
 
   cycle_monitor() = default;
   explicit cycle_monitor(monitor_options options) : options_(options) {}
 
-  /// b's part of the receiver's allocation went from `before` to `after` because of a message. Rules ii, iv, v.
-  void on_message(agent_id b, part const& before, part const& after, instant now) {
-    bool const agreeing = before == after;
-    watch* w = find(b);
-    if (!w && agreeing) return;
-    if (!w) w = insert(b);
+  /// Takes in what a message changed about its sender. Rules ii, iv, v. O(senders watched).
+  void on_message(part_change<V> const& change, instant now) {
+    bool const agreeing = change.empty();
+    watch* w = lower(change.agent);
+    if (w == watches_.end() || !(w->sender == change.agent)) {
+      if (agreeing) return;
+      w = watches_.insert(w, watch{.sender = change.agent});
+    }
     bool const unanswered = w->open && !w->deliberated;
     if (unanswered) {
-      if (!agreeing && after == w->old_part) w->open = false;
+      if (!agreeing && change.after == w->old_part) w->open = false;
       return;
     }
     if (agreeing || w->open) w->count = 0;
     w->open = !agreeing;
     w->deliberated = false;
-    w->old_part = before;
+    w->old_part = change.before;
     w->opened = now;
   }
 
-  /// The receiver deliberated and now believes in `atoms`. Rule iii; fires at most once, then everything is cleared.
+  /// The receiver has deliberated and now believes in `atoms`. Rule iii. On a detection everything is cleared.
   [[nodiscard]] monitor_verdict<V> on_deliberation(event<in<V>> const& /*e_r*/, allocation_atoms<V> const& atoms,
                                                    instant now) {
     monitor_verdict<V> verdict;
@@ -86,21 +88,23 @@ public:
   }
 
   void clear() noexcept { watches_.clear(); }
-  /// b was deleted from the team.
+  /// Forgets b, which was deleted from the team.
   void forget(agent_id b) {
-    if (watch* w = find(b)) watches_.erase(w);
+    watch* const w = lower(b);
+    if (w != watches_.end() && w->sender == b) watches_.erase(w);
   }
 
   friend bool operator==(cycle_monitor const&, cycle_monitor const&) = default;
 
 private:
+  /// What the monitor remembers about one sender.
   struct watch {
     agent_id sender{};
-    part old_part;
+    std::optional<in<V>> old_part{};  // what a cycle would restore, while open
     instant opened{};
-    std::uint32_t count = 0;
-    bool open = false;
-    bool deliberated = false;
+    std::uint32_t count = 0;   // subsequent cycles so far
+    bool open = false;         // a message has changed the part, and no deliberation has restored it
+    bool deliberated = false;  // a deliberation has run since, and has not restored it
     friend bool operator==(watch const&, watch const&) = default;
   };
 
@@ -108,41 +112,27 @@ private:
     return std::lower_bound(watches_.begin(), watches_.end(), b,
                             [](watch const& w, agent_id key) { return w.sender < key; });
   }
-  watch* find(agent_id b) {
-    watch* w = lower(b);
-    return w != watches_.end() && w->sender == b ? w : nullptr;
-  }
-  watch* insert(agent_id b) {
-    watch fresh;
-    fresh.sender = b;
-    return watches_.insert(lower(b), fresh);
-  }
 
   monitor_options options_;
   small_vector<watch, 8> watches_;  // ascending by sender
 };
 
-/// Def. 5 to the letter, with one counter per plan type: for reproduction and comparison, not for use.
+/// Def. 5 to the letter, with one counter per plan type: to reproduce and to compare, not to use.
 ///
-/// Every pending message event is judged against the next reallocation; a cycle counts, anything else starts over. A
-/// third robot's change in the same deliberation therefore hides a loop for ever.
+/// It compares every pending message event with the next reallocation. A cycle counts; anything else sets the counter to 0.
+/// Therefore one change of a third robot in the same deliberation hides a loop for ever.
 template <vocabulary V = runtime_vocabulary>
 class literal_monitor {
 public:
   using agent_id = typename V::agent;
-  using part = std::optional<in<V>>;
 
   literal_monitor() = default;
   explicit literal_monitor(monitor_options options) : options_(options) {}
 
-  void on_message(agent_id b, part const& before, part const& after, instant /*now*/) {
-    if (before == after) return;
-    auto* const old = std::find_if(pending_.begin(), pending_.end(), [&](pending const& p) { return p.sender == b; });
-    if (old != pending_.end()) pending_.erase(old);
-    allocation_atoms<V> from, to;
-    if (before) from.insert(*before);
-    if (after) to.insert(*after);
-    pending_.push_back({b, difference(from, to)});
+  void on_message(part_change<V> const& change, instant /*now*/) {
+    if (change.empty()) return;
+    forget(change.agent);
+    pending_.push_back({change.agent, change.event()});
   }
 
   [[nodiscard]] monitor_verdict<V> on_deliberation(event<in<V>> const& e_r, allocation_atoms<V> const& /*atoms*/,
