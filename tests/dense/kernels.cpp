@@ -14,7 +14,7 @@
 
 namespace kernels_test {
 
-namespace kernel = rota::dense::kernel;
+namespace kernel = rota::dense::detail::kernel;
 using numbers = std::vector<std::int64_t>;
 using rota_test::dice;
 
@@ -48,7 +48,7 @@ void check_leaders(kernels const& k, numbers const& worth, numbers const& price)
   for (std::size_t i = 0; i < n; ++i)
     if (worth[i] - price[i] > worth[best] - price[best]) best = i;
   RC_ASSERT(k.best(worth.data(), price.data(), n) == best);
-  auto second = rota::dense::row_leaders::nothing;
+  auto second = rota::dense::detail::row_leaders::nothing;
   for (std::size_t i = 0; i < n; ++i)
     if (i != best) second = std::max(second, worth[i] - price[i]);
   auto const leaders = k.best_two(worth.data(), price.data(), n);
@@ -61,7 +61,7 @@ void check_labels(kernels const& k, numbers const& worth, numbers const& price, 
   auto const n = worth.size();
   numbers via(n, -1);
   auto expected_label = label, expected_via = via;
-  rota::dense::row_entry least{limit, n};
+  rota::dense::detail::row_entry least{limit, n};
   for (std::size_t i = 0; i < n; ++i) {
     auto const offered = 5 + price[i] - worth[i];
     if (offered < expected_label[i]) expected_label[i] = offered, expected_via[i] = 42;

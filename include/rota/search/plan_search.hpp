@@ -316,9 +316,7 @@ private:
       work_.most[agents] += price[k] * static_cast<std::int64_t>(price[k] > 0 ? upper : lower);
     }
     for (std::size_t a = agents; a-- > 0;) {
-      auto const* const row = memory_.keys.data() + a * slot_count;
-      auto const best = dense::kernel::best(row, price.data(), slot_count);
-      work_.most[a] = work_.most[a + 1] + row[best] - price[best];
+      work_.most[a] = work_.most[a + 1] + memory_.solver.most({memory_.keys.data() + a * slot_count, slot_count});
     }
   }
   [[nodiscard]] std::int64_t bound_alone(std::span<dense::slot const> prefix) const {

@@ -1,210 +1,71 @@
 #pragma once
 
-#include <rota/dense/flow/detail/canonical.hpp>
-#include <rota/dense/flow/detail/opening.hpp>
-#include <rota/dense/flow/detail/slot_graph.hpp>
+#include <rota/core/config.hpp>
+#include <rota/dense/detail/hidden.hpp>
 #include <rota/dense/outcome.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <span>
-#include <utility>
 
 namespace rota::dense {
 
 /// Why no assignment is valid.
 enum class flow_obstacle : unsigned char {
   none,         ///< one is
-  agent_stuck,  ///< `witness` is an agent: those that fit only into the slots it may reach are more than these bear
-  slot_short    ///< `witness` is a slot: its lower bound cannot be filled together with the others'
+  agent_stuck,  ///< `witness` is an agent: more agents fit only into the slots it can reach than these slots take
+  slot_short    ///< `witness` is a slot: its lower bound cannot be met together with those of the others
 };
 
-/// What a flow search found. It always finds an assignment or proves that there is none, whatever the limit.
+/// What a flow search found. Whatever the limit, it finds an assignment or proves that there is none: never `unknown`.
 struct flow_outcome : outcome {
   flow_obstacle obstacle = flow_obstacle::none;
-  std::size_t witness = 0;
-  bool warm = false;  ///< began where the search before had ended
+  std::size_t witness = 0;  ///< see `obstacle`
+  bool warm = false;        ///< the search began with the assignment of the last one
 };
 
-/// Finds the assignment of greatest total utility, exactly and in polynomial time; buffers are reused between calls.
+namespace detail {
+class flow_search;
+}
+
+/// Finds the assignment of greatest total utility, exactly and in polynomial time.
 ///
-/// Canonical: of all optima the lexicographically smallest vector (agent → slot) is returned. So the answer depends on the
-/// instance only, and a warm search ends where a cold one would.
-/// Certificate: `prices`. With p_k the price of slot k, for every assignment x within the bounds
+/// Canonical: of all optima it returns the lexicographically smallest vector (agent → slot). So the answer depends on the
+/// instance only, and a warm search returns what a cold one would.
+/// Certificate: `prices`. With p_k the price of slot k, every assignment x within the bounds satisfies
 ///   Σ u(a, x_a) ≤ Σ_a max_k (u(a, k) − p_k) + Σ_k (p_k > 0 ? p_k·upper_k : p_k·lower_k),
-/// and the optimum meets it. The bounds are those of `bounds()`: what the instance's imply for the number of agents.
+/// and the optimum meets it with equality. The bounds are those of `bounds`: the instance's, and what they imply for the
+/// number of agents.
 ///
+/// Memory is reused: a search that is no larger than earlier ones allocates nothing. A copy of a solver begins with no
+/// memory; a move keeps it, and assignments that outcomes show stay valid.
 /// Complexity: cold O(n·s) and E searches of O(s²), E at most n + the sum of the lower bounds and usually far less; warm
-/// O(s) a changed row and as many searches as there are changed rows at most. O(n + s²) memory.
+/// O(s) for each changed row and at most as many searches as changed rows. O(n + s²) memory.
 class flow_solver {
 public:
-  /// From nothing. @pre the preconditions of `instance`
-  flow_outcome solve(instance const& in, work_limit const& limit = {}) {
-    graph_.reset(in);
-    return begin(in, limit);
-  }
+  /// Searches anew. A step of `limit` is an arc looked at. @pre the preconditions of `instance`
+  flow_outcome solve(instance const& in, work_limit const& limit = {});
 
-  /// From the assignment of the last search, where utilities or taking part have changed in rows `changed` only; bounds
-  /// may have changed anyhow. Cold where there is nothing to begin with.
-  /// @pre `changed` names each row that has changed, once
-  flow_outcome resolve(instance const& in, std::span<row_index const> changed, work_limit const& limit = {}) {
-    flow_outcome out;
-    if (warm_ && graph_.adopt(in) && replace(in, changed) && !tighten(in)) {
-      graph_.open_places(agents_);
-      out = finish(in, limit, true);
-    }
-    if (!out.found()) out = solve(in, limit);  // so that the witness of a refusal does not depend on history either
-    out.work.changed_rows = changed.size();
-    return out;
-  }
+  /// Begins with the assignment of the last search, if there is one. Utilities and taking part may have changed in the
+  /// rows `changed` only; bounds may have changed anyhow.
+  /// @pre as `solve`; `changed` names each row that has changed, once
+  flow_outcome resolve(instance const& in, std::span<row_index const> changed, work_limit const& limit = {});
 
-  /// The price of each slot, and of the sink, which is 0.
-  [[nodiscard]] std::span<std::int64_t const> prices() const noexcept { return std::as_const(graph_).prices(); }
-  /// Lower and upper bound of slot k, with what the other slots cannot take or must have.
-  [[nodiscard]] slot_bounds bounds(std::size_t k) const noexcept { return graph_.bounds(k); }
+  /// Of the last search: the price of each slot, and of the sink, which is 0. Empty before the first.
+  [[nodiscard]] std::span<std::int64_t const> prices() const noexcept;
+  /// Of the last search: lower and upper bound of slot k, tightened by what the other slots need and can take.
+  /// @pre there was a search, and it had slot k
+  [[nodiscard]] slot_bounds bounds(std::size_t k) const noexcept;
+  /// What an agent with this row adds to the certificate: max_k (row[k] − p_k) at the prices of the last search.
+  /// @pre there was a search; row has an entry for each of its slots, at least one
+  [[nodiscard]] std::int64_t most(std::span<std::int64_t const> row) const noexcept;
 
 private:
-  using value = slot_graph::value;
-
-  flow_outcome begin(instance const& in, work_limit const& limit) {
-    ROTA_ASSERT(in.utility.size() == in.agents * in.slot_count());
-    ROTA_ASSERT(in.taking_part.empty() || in.taking_part.size() == in.agents);
-    warm_ = false;
-    agents_ = 0;
-    for (std::size_t a = 0; a < in.agents; ++a) agents_ += in.takes_part(a);
-    if (auto const out = tighten(in)) return *out;
-    if (in.slot_count() == 0) return placed(status::optimal, 0, 0, false);
-    if (!opening_.play(graph_, agents_, limit)) return refused(flow_obstacle::agent_stuck, opening_.homeless());
-    return finish(in, limit, false);
-  }
-
-  /// Puts the agents of changed rows where they are worth most now; false if one of them has no pair.
-  bool replace(instance const& in, std::span<row_index const> changed) {
-    for (auto const a : changed) {
-      if (graph_.who().home(a) != no_slot) {
-        graph_.take(a);
-        --agents_;
-      }
-      if (!in.takes_part(a)) continue;
-      if (!graph_.place(a)) return false;
-      ++agents_;
-    }
-    return true;
-  }
-
-  [[nodiscard]] flow_outcome refused(flow_obstacle obstacle, std::size_t witness) const {
-    flow_outcome out;
-    out.status = status::infeasible;
-    out.bound = no_value;
-    out.obstacle = obstacle;
-    out.witness = witness;
-    return counted(out);
-  }
-  [[nodiscard]] flow_outcome placed(status how, value worth, value bound, bool warm) const {
-    flow_outcome out;
-    out.status = how;
-    out.assignment = graph_.who().homes();
-    out.value = worth;
-    out.bound = bound;
-    out.warm = warm;
-    return counted(out);
-  }
-  [[nodiscard]] flow_outcome counted(flow_outcome out) const {
-    out.work.searches = graph_.done().searches;
-    out.work.augmentations = graph_.done().augmentations;
-    out.work.relaxations = graph_.done().relaxations;
-    return out;
-  }
-
-  /// Bounds as the number of agents implies them: what other slots cannot take must come here, what they must have cannot.
-  std::optional<flow_outcome> tighten(instance const& in) {
-    value least = 0;
-    value most = 0;
-    for (auto const b : in.bounds) least += b.lower, most += b.upper;
-    auto const n = static_cast<value>(agents_);
-    if (n > most) return refused(flow_obstacle::agent_stuck, first_taking_part(in));
-    for (std::size_t k = 0; k < in.slot_count(); ++k) {
-      auto const [lower, upper] = in.bounds[k];
-      value const implied_upper = n - (least - value{lower});
-      if (lower > upper || value{lower} > implied_upper) return refused(flow_obstacle::slot_short, k);
-      graph_.set_bounds(k, {static_cast<std::uint32_t>(std::max(value{lower}, n - (most - value{upper}))),
-                            static_cast<std::uint32_t>(std::min(value{upper}, implied_upper))});
-    }
-    return std::nullopt;
-  }
-  [[nodiscard]] static std::size_t first_taking_part(instance const& in) {
-    std::size_t a = 0;
-    while (!in.takes_part(a)) ++a;
-    return a;
-  }
-
-  flow_outcome finish(instance const& in, work_limit const& limit, bool warm) {
-    auto flow = graph_.balance(limit);
-    bool const close = graph_.normalise();
-    if (flow == slot_graph::flow::interrupted) return hurry(in);
-    if (!close) {  // prices have drifted apart in parts of the graph that hardly meet: once more, so that they cannot
-      graph_.reset(in);
-      if (auto const out = tighten(in)) return *out;
-      for (row_index a = 0; a < in.agents; ++a)
-        if (in.takes_part(a)) graph_.place(a);
-      graph_.keep_ledgers();
-      graph_.open_places(agents_);
-      flow = graph_.balance(limit, false);
-      graph_.normalise();
-      if (flow == slot_graph::flow::interrupted) return hurry(in);
-    }
-    warm_ = true;
-    if (flow == slot_graph::flow::stuck) return explain();
-    if (!in.unique) canonical_.make(graph_);
-    auto const total = graph_.who().total();
-    return placed(status::optimal, total, total, warm);
-  }
-
-  /// No time left to balance: anything within the bounds, and how much more the prices leave room for.
-  flow_outcome hurry(instance const& in) {
-    warm_ = false;
-    if (!graph_.fill_anyhow(agents_)) return explain();
-    std::uint64_t gap = 0;
-    auto const add = [&](value amount, std::uint64_t times) {  // at most what 64 bits hold; amounts are not negative
-      auto const most = (std::numeric_limits<std::uint64_t>::max)();
-      auto const x = static_cast<std::uint64_t>(amount);
-      gap = x != 0 && times > (most - gap) / x ? most : gap + x * times;
-    };
-    auto const price = prices();
-    for (std::size_t a = 0; a < in.agents; ++a) {
-      auto const here = graph_.who().home(a);
-      if (here == no_slot) continue;
-      auto const best = kernel::best(in.row(a), price.data(), in.slot_count());
-      add(in.at(a, best) - price[best] - (in.at(a, here) - price[here]), 1);
-    }
-    for (std::size_t k = 0; k < in.slot_count(); ++k)
-      price[k] > 0 ? add(price[k], bounds(k).upper - graph_.who().count(k))
-                   : add(-price[k], graph_.who().count(k) - bounds(k).lower);
-    auto const total = graph_.who().total();
-    auto const headroom = static_cast<std::uint64_t>(no_bound - std::max<value>(total, 0));
-    return placed(status::feasible, total, total + static_cast<value>(std::min(gap, headroom)), false);
-  }
-
-  [[nodiscard]] flow_outcome explain() const {
-    auto const stuck = graph_.stuck_at();
-    if (stuck == graph_.sink()) {
-      std::size_t k = 0;
-      while (graph_.room(k) <= 0) ++k;
-      return refused(flow_obstacle::slot_short, k);
-    }
-    auto least = graph_.who().first(stuck);
-    for (auto a = least; a != membership::nobody; a = graph_.who().next(a)) least = (std::min)(least, a);
-    return refused(flow_obstacle::agent_stuck, least);
-  }
-
-  slot_graph graph_;
-  opening opening_;
-  canonical_choice canonical_;
-  std::size_t agents_ = 0;  // that take part
-  bool warm_ = false;       // the graph is balanced, or was proved to have no balance
+  detail::hidden<detail::flow_search> search_;
 };
 
 }  // namespace rota::dense
+
+#ifndef ROTA_COMPILED
+#include <rota/dense/flow/detail/search.hpp>
+#endif

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace rota::dense {
+namespace rota::dense::detail {
 
 /// Whether an optimum is the only one, and if not, the lexicographically smallest (agent → slot) of all.
 ///
@@ -170,4 +170,4 @@ private:
   std::uint64_t resolved_ = 0;
 };
 
-}  // namespace rota::dense
+}  // namespace rota::dense::detail

@@ -8,7 +8,7 @@
 
 /// The loops over one row of slots in which the additive solver spends its time: plainly, and for AVX2 (wide_kernels.hpp)
 /// where the processor has it and the row is long enough to gain by it. Both return the same numbers, ties included.
-namespace rota::dense::kernel {
+namespace rota::dense::detail::kernel {
 
 inline constexpr std::size_t long_row = 8;  // measured: shorter rows lose by vectors
 
@@ -89,38 +89,37 @@ namespace wide = plain;
 [[nodiscard]] inline row_entry relax(std::int64_t base, std::int64_t const* price, std::int64_t const* gain,
                                      std::int64_t link, std::int64_t* label, std::int64_t* via, std::size_t n,
                                      std::int64_t limit) {
-  return n >= long_row && detail::simd::has_avx2() ? wide::relax(base, price, gain, link, label, via, n, limit)
-                                                   : plain::relax(base, price, gain, link, label, via, n, limit);
+  return n >= long_row && simd::has_avx2() ? wide::relax(base, price, gain, link, label, via, n, limit)
+                                           : plain::relax(base, price, gain, link, label, via, n, limit);
 }
 
 /// The least label below `limit`, or {limit, n}.
 [[nodiscard]] inline row_entry least(std::int64_t const* label, std::size_t n, std::int64_t limit) {
-  return n >= long_row && detail::simd::has_avx2() ? wide::least(label, n, limit) : plain::least(label, n, limit);
+  return n >= long_row && simd::has_avx2() ? wide::least(label, n, limit) : plain::least(label, n, limit);
 }
 
 /// The first k of greatest worth[k] − price[k]. @pre n > 0
 [[nodiscard]] inline std::size_t best(std::int64_t const* worth, std::int64_t const* price, std::size_t n) {
-  return n >= long_row && detail::simd::has_avx2() ? wide::best(worth, price, n) : plain::best(worth, price, n);
+  return n >= long_row && simd::has_avx2() ? wide::best(worth, price, n) : plain::best(worth, price, n);
 }
 
 /// The two greatest worth[k] − price[k]. @pre n > 0
 [[nodiscard]] inline row_leaders best_two(std::int64_t const* worth, std::int64_t const* price, std::size_t n) {
-  return n >= 5 * long_row && detail::simd::has_avx2() ? wide::best_two(worth, price, n)
-                                                       : plain::best_two(worth, price, n);
+  return n >= 5 * long_row && simd::has_avx2() ? wide::best_two(worth, price, n) : plain::best_two(worth, price, n);
 }
 
 /// most[k] ← max(most[k], row[k] − base), and who[k] ← link where that is more.
 inline void raise(std::int64_t const* row, std::int64_t base, std::int64_t link, std::int64_t* most, std::int64_t* who,
                   std::size_t n) {
-  return n >= long_row && detail::simd::has_avx2() ? wide::raise(row, base, link, most, who, n)
-                                                   : plain::raise(row, base, link, most, who, n);
+  return n >= long_row && simd::has_avx2() ? wide::raise(row, base, link, most, who, n)
+                                           : plain::raise(row, base, link, most, who, n);
 }
 
 /// The first k at or after `from` with gain[k] + here ≥ price[k], or n.
 [[nodiscard]] inline std::size_t first_tight(std::int64_t const* gain, std::int64_t here, std::int64_t const* price,
                                              std::size_t from, std::size_t n) {
-  return n >= long_row && detail::simd::has_avx2() ? wide::first_tight(gain, here, price, from, n)
-                                                   : plain::first_tight(gain, here, price, from, n);
+  return n >= long_row && simd::has_avx2() ? wide::first_tight(gain, here, price, from, n)
+                                           : plain::first_tight(gain, here, price, from, n);
 }
 
-}  // namespace rota::dense::kernel
+}  // namespace rota::dense::detail::kernel

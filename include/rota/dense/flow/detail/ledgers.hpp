@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-namespace rota::dense {
+namespace rota::dense::detail {
 
 /// For slots that can hold many agents: for each other slot the greatest gain of moving a member there, and whose it is.
 ///
@@ -116,4 +116,4 @@ private:
   value rest_margin_ = 0;
 };
 
-}  // namespace rota::dense
+}  // namespace rota::dense::detail

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace rota::dense {
+namespace rota::dense::detail {
 
 /// Who is in which slot, and what it is worth there. The members of a slot can be listed; those who rest come last.
 ///
@@ -87,4 +87,4 @@ private:
   std::int64_t total_ = 0;
 };
 
-}  // namespace rota::dense
+}  // namespace rota::dense::detail

@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-namespace rota::dense {
+namespace rota::dense::detail {
 
 /// Where to begin: prices at which few agents have to move, and everybody where it is worth most at them.
 ///
@@ -218,4 +218,4 @@ private:
   buffer<value> margins_;
 };
 
-}  // namespace rota::dense
+}  // namespace rota::dense::detail

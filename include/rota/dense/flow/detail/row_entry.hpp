@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace rota::dense {
+namespace rota::dense::detail {
 
 /// A number of a row and where it stands; of equal ones the first.
 struct row_entry {
@@ -19,4 +19,4 @@ struct row_leaders {
   std::size_t at;
 };
 
-}  // namespace rota::dense
+}  // namespace rota::dense::detail

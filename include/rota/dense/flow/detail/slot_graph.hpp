@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <span>
 
-namespace rota::dense {
+namespace rota::dense::detail {
 
 /// Agents in slots, the price of each slot, and shortest ways to move one agent more from here to there.
 ///
@@ -380,4 +380,4 @@ private:
   work done_;
 };
 
-}  // namespace rota::dense
+}  // namespace rota::dense::detail

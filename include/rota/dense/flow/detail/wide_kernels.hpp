@@ -11,11 +11,11 @@
 #if ROTA_SIMD_AVX2
 
 /// The kernels of kernels.hpp for AVX2, four numbers at a time. @pre simd::has_avx2(), n ≥ 4
-namespace rota::dense::kernel::wide {
+namespace rota::dense::detail::kernel::wide {
 
-using detail::simd::lanes_at;
+using simd::lanes_at;
 inline constexpr std::size_t width = 4;
-using numbers = detail::simd::lanes<std::int64_t, width>::vector;
+using numbers = simd::lanes<std::int64_t, width>::vector;
 
 ROTA_FOR_AVX2 numbers all(std::int64_t x) { return numbers{x, x, x, x}; }
 
@@ -172,6 +172,6 @@ ROTA_FOR_AVX2 std::size_t first_tight(std::int64_t const* gain, std::int64_t pri
   return k;
 }
 
-}  // namespace rota::dense::kernel::wide
+}  // namespace rota::dense::detail::kernel::wide
 
 #endif
