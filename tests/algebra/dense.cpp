@@ -41,7 +41,11 @@ struct first_atoms {
   friend bool operator==(first_atoms const&, first_atoms const&) = default;
 };
 
-constexpr atom_set the_first(std::size_t n) { return set_of(std::vector<int>(n, 1)); }
+constexpr atom_set the_first(std::size_t n) {
+  atom_set c;
+  for (std::size_t i = 0; i < n; ++i) c.insert(nth(i));
+  return c;
+}
 
 using word_event = rota::dense_event<first_atoms<64>>;
 using listed = rota::listed_universe<atom>;

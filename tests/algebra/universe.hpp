@@ -33,7 +33,7 @@ constexpr atom nth(std::size_t i) {
 constexpr rota::sign to_sign(int s) { return s > 0 ? rota::sign::plus : s < 0 ? rota::sign::minus : rota::sign::zero; }
 
 /// Built through the two sets of Def. 3, as a user would: independent of `compose` and `difference`.
-constexpr event event_of(std::vector<int> const& signs) {
+inline event event_of(std::vector<int> const& signs) {
   atom_set additions;
   atom_set subtractions;
   for (std::size_t i = 0; i < signs.size(); ++i) {
@@ -43,7 +43,7 @@ constexpr event event_of(std::vector<int> const& signs) {
   return event::make(additions, subtractions).value();
 }
 
-constexpr atom_set set_of(std::vector<int> const& member) {
+inline atom_set set_of(std::vector<int> const& member) {
   atom_set c;
   for (std::size_t i = 0; i < member.size(); ++i)
     if (member[i] != 0) c.insert(nth(i));
@@ -51,7 +51,7 @@ constexpr atom_set set_of(std::vector<int> const& member) {
 }
 
 template <class Coefficient = std::int64_t>
-constexpr rota::delta<atom, Coefficient> delta_of(std::vector<int> const& counts) {
+rota::delta<atom, Coefficient> delta_of(std::vector<int> const& counts) {
   rota::delta<atom, Coefficient> d;
   for (std::size_t i = 0; i < counts.size(); ++i) d += {nth(i), static_cast<Coefficient>(counts[i])};
   return d;

@@ -71,15 +71,85 @@ TEST(result, gives_access_to_the_value_it_holds) {
   EXPECT_EQ(r.error(), 4);
 }
 
-#ifndef NDEBUG
-TEST(result_death, asking_the_branch_that_is_not_there) {
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  rota::result<int, int> const value = 1;
-  rota::result<int, int> const refusal = rota::refused{1};
-  EXPECT_DEATH((void)refusal.value(), "has_value");
-  EXPECT_DEATH((void)value.error(), "!has_value");
+/// Counts how many are alive, and that none is destroyed as what it is not.
+struct counted {
+  static inline int alive = 0;
+  int id;
+  counted const* self = this;
+
+  explicit counted(int n) : id(n) { ++alive; }
+  counted(counted const& other) : id(other.id) { ++alive; }
+  counted& operator=(counted const& other) {
+    id = other.id;
+    return *this;
+  }
+  ~counted() {
+    EXPECT_EQ(self, this);
+    --alive;
+  }
+  friend bool operator==(counted const& a, counted const& b) { return a.id == b.id; }
+};
+
+TEST(result, destroys_exactly_what_it_holds) {
+  using either = rota::result<counted, std::string>;
+  auto const value = [](int n) { return either(counted(n)); };
+  auto const refusal = [] { return either(rota::refused{std::string("a text too long to live inside the string")}); };
+  {
+    auto a = value(1);
+    auto b = refusal();
+    EXPECT_EQ(counted::alive, 1);
+    auto c = a;
+    auto d = b;
+    EXPECT_EQ(counted::alive, 2);
+    c = d;  // a value becomes a refusal
+    EXPECT_EQ(counted::alive, 1);
+    EXPECT_EQ(c, b);
+    d = a;  // a refusal becomes a value
+    EXPECT_EQ(counted::alive, 2);
+    EXPECT_EQ(d, a);
+    d = value(7);  // a value another value
+    EXPECT_EQ(d->id, 7);
+    c = refusal();
+    EXPECT_EQ(c, b);
+    auto const& same = d;
+    d = same;
+    EXPECT_EQ(d->id, 7);
+    std::swap(c, d);
+    EXPECT_EQ(c->id, 7);
+    EXPECT_FALSE(d);
+    auto const moved = std::move(c);
+    EXPECT_EQ(moved->id, 7);
+  }
+  EXPECT_EQ(counted::alive, 0);
 }
+
+static_assert(std::is_trivially_copyable_v<rota::result<int, char>>);
+static_assert(std::is_nothrow_move_constructible_v<rota::result<std::string, int>> &&
+              !std::copy_constructible<rota::result<std::unique_ptr<int>, int>>);
+
+}  // namespace
+
+namespace core_values {
+
+enum class fault { none, missing_utility };
+constexpr char const* reason_of(fault f) { return f == fault::missing_utility ? "missing_utility" : "none"; }
+
+}  // namespace core_values
+
+namespace {
+
+TEST(result_death, the_value_of_a_refused_one_names_the_refusal) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  rota::result<int, core_values::fault> const with_words = rota::refused{core_values::fault::missing_utility};
+  rota::result<int, empty_name> const without_words = rota::refused{empty_name{3}};
+  EXPECT_DEATH((void)*with_words, "refused: missing_utility");
+  EXPECT_DEATH((void)without_words.value(), "refused: .*empty_name");
+#ifndef NDEBUG
+  rota::result<int, int> const value = 1;
+  EXPECT_DEATH((void)without_words.value(), "has_value");
+  EXPECT_DEATH((void)value.error(), "!has_value");
 #endif
+}
 
 // Time ----------------------------------------------------------------------------------------------------------------
 

@@ -1,11 +1,17 @@
 #pragma once
 /// @file
-/// `ROTA_ASSERT(condition)`: misuse by the programmer, named in each `@pre`.
+/// `ROTA_ASSERT(condition)` checks what a `@pre` asks of the caller; `ROTA_REPORT(text)` says what the condition cannot.
 ///
-/// Define it before the first include to route failures to your engine, or to `((void)0)` to drop the checks.
-/// Whatever it is, no layout and no result of a correct program changes.
+/// Define either before the first include to route failures to your engine, or as `((void)0)` to drop it. Neither
+/// changes a layout, or a result of a correct program.
 
 #ifndef ROTA_ASSERT
 #include <cassert>
 #define ROTA_ASSERT(condition) assert(condition)
+#endif
+
+/// Called with a line of text just before the program ends because a refused `result` was taken for a value.
+#ifndef ROTA_REPORT
+#include <cstdio>
+#define ROTA_REPORT(text) ((void)std::fputs(text, stderr))
 #endif

@@ -2,6 +2,7 @@
 
 #include <rota/core/assert.hpp>
 
+#include <cstdlib>
 #include <optional>
 #include <utility>
 
@@ -16,9 +17,39 @@ struct refused {
 template <class Refusal>
 refused(Refusal) -> refused<Refusal>;
 
+namespace detail {
+
+/// The name of T, within a sentence of the compiler's.
+template <class T>
+[[nodiscard]] constexpr char const* type_name() noexcept {
+#if defined(__GNUC__)
+  return __PRETTY_FUNCTION__;
+#else
+  return "?";
+#endif
+}
+
+/// Ends the program and says which refusal was taken for a value. Also without assertions: nothing right could follow.
+template <class Refusal>
+[[noreturn]] void no_value(Refusal const& why) noexcept {
+  ROTA_REPORT("rota: there is no value, the result was refused: ");
+  if constexpr (requires { static_cast<char const*>(reason_of(why)); })
+    ROTA_REPORT(static_cast<char const*>(reason_of(why)));
+  else
+    ROTA_REPORT(type_name<Refusal>());
+  ROTA_REPORT("\n");
+  [[maybe_unused]] constexpr bool has_value = false;
+  ROTA_ASSERT(has_value);
+  std::abort();
+}
+
+}  // namespace detail
+
 /// A value, or a typed refusal that says why there is none.
 ///
-/// The set T + Refusal. C++20 has no `std::expected`; this is the part of it the library needs. Never throws of itself.
+/// The set T + Refusal. C++20 has no `std::expected`; this is the part of it that the library needs. It throws nothing of
+/// its own. Taking the value of a refused one ends the program and names the refusal: by the text of `reason_of(refusal)`,
+/// where a `char const* reason_of(Refusal const&)` stands beside its type, else by the name of the type.
 template <class T, class Refusal>
 class [[nodiscard]] result {
 public:
@@ -33,11 +64,11 @@ public:
 
   /// @pre `has_value()`
   [[nodiscard]] constexpr T const& value() const& noexcept {
-    ROTA_ASSERT(has_value());
+    if (!value_) detail::no_value(*refusal_);
     return *value_;
   }
   [[nodiscard]] constexpr T& value() & noexcept {
-    ROTA_ASSERT(has_value());
+    if (!value_) detail::no_value(*refusal_);
     return *value_;
   }
   [[nodiscard]] constexpr T&& value() && noexcept { return std::move(value()); }
