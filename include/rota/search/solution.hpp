@@ -2,7 +2,7 @@
 
 #include <rota/allocation/utility.hpp>
 #include <rota/core/small_vector.hpp>
-#include <rota/search/workspace.hpp>
+#include <rota/search/limits.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -25,7 +25,7 @@ struct bound_lie {
   typename V::plan plan{};
   allocation_atoms<V> partial;   ///< what was decided
   std::size_t undecided = 0;     ///< how many participants were not, the last ones
-  allocation_atoms<V> complete;  ///< an extension worth more
+  allocation_atoms<V> complete;  ///< an extension of it that is worth more
   double bound = 0;
   double value = 0;
 
@@ -41,16 +41,18 @@ struct solution {
   fixed_utility exact{};      ///< the same, for comparisons
   fixed_utility objective{};  ///< the same less change costs: what was maximised
   std::size_t changes = 0;    ///< participants who do something else than in `problem::current`
-  /// Proved: no valid allocation of any plan is better. False only if the budget ran out, a bound lied, or the utilities of
-  /// another plan were too great.
+  /// Proved: no valid allocation of any plan is better, nor preferred among equals. False only if the budget ran out, a
+  /// bound lied, or the utilities of another plan were too great.
   bool optimal = false;
-  double gap = 0;  ///< no valid allocation is better by more than this; 0 if optimal
+  /// Proved: no valid allocation is better by more than this. May be 0 without `optimal`: then an equally good allocation
+  /// may be preferred.
+  double gap = 0;
   search_work work{};
   std::optional<rota::runner_up<V>> runner_up{};
   /// The first term or total left out because it is no utility (NaN, ±∞, out of range, threw). Allocations that need it
-  /// are invalid, so the answer is right; the filler is not.
+  /// are invalid, so the result is correct; your utility function needs fixing.
   std::optional<utility_refusal<V>> ignored{};
-  /// The first bound that was seen to be too low. Then the answer is valid, but nothing is proved.
+  /// The first bound that was seen to be too low. The allocation is valid all the same, but nothing is proved.
   std::optional<bound_lie<V>> lie{};
 
   friend bool operator==(solution const&, solution const&) = default;
@@ -63,23 +65,26 @@ enum class no_plan_reason : unsigned char {
   too_many_agents,              ///< `count` take part, nobody may idle, and there is room for `bounds.upper()`
   task_short,                   ///< `count` agents may take on `task`, which needs `bounds`
   agent_without_task,           ///< `agent` may neither take on any task nor idle
-  pairs_contradict,  ///< each agent and task alone could be served, but not all (`agent` or `task`: one left over)
-  utility_refused,   ///< needs a utility that is none: `fault`, at (`agent`, `task`) if it is theirs
+  pairs_contradict,  ///< each agent and task alone could be served, but not all; one left over: `agent` or `task`
+  utility_refused,   ///< every allocation needs a utility that is none: `fault`, at `agent` and `task` if it is theirs
   precondition_never_holds,  ///< Pre(p) is false on every allocation that is valid otherwise
-  precondition_threw,        ///< and so does no admissible allocation remain
+  precondition_threw,        ///< the same, but on some allocations Pre(p) threw
   negative_utility,          ///< U_p is at most `value` < 0 on every allocation: clause (6)
   search_incomplete,         ///< the budget ran out, or a bound lied, before a valid allocation was found
-  utilities_too_great  ///< those of `agent`, for so many agents and tasks: beyond what is summed exactly, so not searched
+  utilities_too_great  ///< not searched: those of `agent` are too great to be summed exactly, for so many agents and tasks
 };
 
-/// Why one plan yields nothing, with its witness. Fields a reason does not mention keep their default.
+/// Why one plan yields nothing, with its witness. Fields that a reason does not mention keep their default.
 template <vocabulary V = runtime_vocabulary>
 struct plan_refusal {
   typename V::plan plan{};
   no_plan_reason why{};
   typename V::agent agent{};
   typename V::task task{};
-  std::uint64_t count = 0;
+  bool about_atom = false;  ///< utility_refused: whether the fault is that of `agent` on `task`
+  bool about_pair = false;  ///< utility_refused: whether it is that of both together with `other`
+  in<V> other{};
+  std::size_t count = 0;
   cardinality bounds{};
   utility_fault fault{};
   double value = 0;
@@ -93,9 +98,9 @@ struct no_allocation {
   small_vector<plan_refusal<V>, 2> plans;  ///< one per plan, ascending
   search_work work{};
   std::optional<utility_refusal<V>> ignored{};  ///< as in `solution`
-  std::optional<bound_lie<V>> lie{};            ///< likewise: then there may be a valid allocation
+  std::optional<bound_lie<V>> lie{};            ///< as in `solution`: then there may be a valid allocation
 
-  /// Whether this is a proof that there is none.
+  /// Whether it is proved that no allocation is valid.
   [[nodiscard]] constexpr bool proved() const noexcept {
     for (auto const& p : plans)
       if (p.why == no_plan_reason::search_incomplete || p.why == no_plan_reason::utilities_too_great) return false;
