@@ -6,6 +6,7 @@
 /// `In(left, kickoff, attack)` is printed instead of `In(1, 0, 1)`.
 
 #include <rota/core/atom.hpp>
+#include <rota/core/result.hpp>
 #include <rota/core/time.hpp>
 
 #include <bit>
@@ -33,6 +34,12 @@ concept printable = requires(T const& x) { std::string(to_string(x)); };
 template <printable T>
 [[nodiscard]] std::string text(T const& x) {
   return std::string(to_string(x));
+}
+template <class T, class Names>
+concept printable_with = requires(T const& x, Names const& name) { std::string(to_string(x, name)); };
+template <class Names, printable_with<Names> T>
+[[nodiscard]] std::string text(T const& x, Names const& name) {
+  return std::string(to_string(x, name));
 }
 
 }  // namespace beside
@@ -150,6 +157,30 @@ struct default_names {
   }
 };
 
+namespace detail {
+
+/// x, with these names if x is made of names; else `name(x)`.
+template <class T, class Names>
+[[nodiscard]] std::string text(T const& x, Names const& name) {
+  if constexpr (beside::printable_with<T, Names>)
+    return beside::text(x, name);
+  else
+    return name(x);
+}
+
+/// `{a, b}`, of what `text(x)` makes of each element.
+template <class Range, class Text>
+[[nodiscard]] std::string braced(Range const& range, Text const& text) {
+  std::string out = "{";
+  for (auto const& x : range) {
+    if (out.size() > 1) out += ", ";
+    out += text(x);
+  }
+  return out + "}";
+}
+
+}  // namespace detail
+
 template <class Tag, class Rep>
 [[nodiscard]] std::string to_string(strong_id<Tag, Rep> const& id) {
   return default_names{}(id.value);
@@ -180,6 +211,12 @@ template <vocabulary V, class Names = default_names>
 /// `12.5 s` since the start of that clock, exact; or `never`.
 [[nodiscard]] inline std::string to_string(instant t) {
   return t == never ? "never" : detail::in_unit(t.ns, 1'000'000'000) + " s";
+}
+
+/// The value, or `refused: ` and the refusal.
+template <class T, class Refusal, class Names = default_names>
+[[nodiscard]] std::string to_string(result<T, Refusal> const& r, Names const& name = {}) {
+  return r.has_value() ? detail::text(*r, name) : "refused: " + detail::text(r.error(), name);
 }
 
 }  // namespace rota
