@@ -23,6 +23,11 @@ template <class T, class Viewed>
 inline constexpr bool is_temporary =
     !std::is_lvalue_reference_v<T&&> || !std::is_convertible_v<std::remove_reference_t<T>*, Viewed const*>;
 
+template <class T>
+inline constexpr bool is_result = false;
+template <class T, class Refusal>
+inline constexpr bool is_result<result<T, Refusal>> = true;
+
 /// Whether a span of T&& would outlive its elements.
 template <class T, class Item>
 inline constexpr bool is_temporary_range =
@@ -68,13 +73,17 @@ struct problem {
       : problem(pt, t, detail::nothing_believed, i) {}
 
   template <class T, class M, class B, class... Rest>
-    requires(detail::is_temporary<T, plan_type<V, Beliefs>> || detail::is_temporary<M, team<V>> ||
-             (detail::is_temporary<B, Beliefs> && !std::same_as<B, idling>) ||
-             (detail::is_temporary_range<Rest, typename V::agent> || ...))
+    requires(!detail::is_result<std::remove_cvref_t<T>>) &&
+                (detail::is_temporary<T, plan_type<V, Beliefs>> || detail::is_temporary<M, team<V>> ||
+                 (detail::is_temporary<B, Beliefs> && !std::same_as<B, idling>) ||
+                 (detail::is_temporary_range<Rest, typename V::agent> || ...))
   problem(T&&, M&&, B&&, Rest&&...) = delete;  // a problem is a view: what it views must be variables that outlive it
   template <class T, class M>
-    requires(detail::is_temporary<T, plan_type<V, Beliefs>> || detail::is_temporary<M, team<V>>)
+    requires(!detail::is_result<std::remove_cvref_t<T>>) &&
+                (detail::is_temporary<T, plan_type<V, Beliefs>> || detail::is_temporary<M, team<V>>)
   problem(T&&, M&&) = delete;  // a problem is a view: what it views must be variables that outlive it
+  template <class R, class... Rest>
+  problem(result<plan_type<V, Beliefs>, R> const&, Rest&&...) = delete;  // a result may be refused: pass *result
 
   /// The same problem where the team executes this allocation already.
   [[nodiscard]] constexpr problem running(allocation_atoms<V> const& now ROTA_LIFETIMEBOUND) const {

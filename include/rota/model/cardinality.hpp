@@ -16,6 +16,10 @@ struct empty_interval {
   friend bool operator==(empty_interval const&, empty_interval const&) = default;
 };
 
+[[nodiscard]] constexpr char const* reason_of(empty_interval const&) noexcept {
+  return "empty_interval: the bounds admit no number";
+}
+
 /// ξ(p, τ) = [n₁, n₂]: how many agents may take on a task, both ends included; n₂ may be `unbounded`.
 ///
 /// [3, 1] can be written. It is empty: it admits no number, and `plan::make` refuses it.

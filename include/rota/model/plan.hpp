@@ -8,13 +8,31 @@
 #include <algorithm>
 #include <concepts>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace rota {
 
 namespace detail {
+
+/// Stands for an entry state that was not given.
 struct missing {};
+
+// Functions of their own, so that compilers name both types.
+
+template <class Given, class Wanted>
+constexpr void check_task() {
+  static_assert(std::is_convertible_v<Given, Wanted>, "plan_task::task is not of the vocabulary's task type");
+}
+template <class Given, class Wanted>
+constexpr void check_entry() {
+  static_assert(!std::is_same_v<Given, missing>,
+                "plan_task::entry is missing: write {task, {min, max}, state}, with the state that an agent begins in");
+  static_assert(std::is_same_v<Given, missing> || std::is_convertible_v<Given, Wanted>,
+                "plan_task::entry is not of the vocabulary's state type");
+}
+
 }  // namespace detail
 
 /// For teams whose utilities and preconditions read no beliefs.
@@ -38,13 +56,8 @@ struct plan_task {
   template <class Task, class State>
     requires(!std::convertible_to<Task, typename V::task> || !std::convertible_to<State, typename V::state>)
   constexpr plan_task(Task const&, cardinality c, State const&) : plan_task({}, c, {}) {
-    static_assert(std::convertible_to<Task, typename V::task>,
-                  "plan_task::task is of another type than the vocabulary's task");
-    static_assert(
-        !std::same_as<State, detail::missing>,
-        "plan_task::entry is missing: write {task, {min, max}, state}, with the state that an agent begins in");
-    static_assert(std::same_as<State, detail::missing> || std::convertible_to<State, typename V::state>,
-                  "plan_task::entry is of another type than the vocabulary's state");
+    detail::check_task<Task, typename V::task>();
+    detail::check_entry<State, typename V::state>();
   }
 
   friend bool operator==(plan_task const&, plan_task const&) = default;
@@ -91,6 +104,22 @@ struct plan_defect {
 
   friend bool operator==(plan_defect const&, plan_defect const&) = default;
 };
+
+/// The refusal in words, without names: `result` prints it where a refused plan is taken for a plan.
+template <vocabulary V>
+[[nodiscard]] constexpr char const* reason_of(plan_defect<V> const& d) noexcept {
+  using kind = typename plan_defect<V>::kind;
+  switch (d.what) {
+  case kind::repeated_task: return "repeated_task: a task is listed twice";
+  case kind::no_task: return "no_task: the plan has no task";
+  case kind::missing_utility: return "missing_utility: the utility, or a part of it, is missing";
+  case kind::weight_not_finite: return "weight_not_finite: a weight of the utility is not a finite number";
+  case kind::threshold_not_finite: return "threshold_not_finite: the hysteresis is negative or not a finite number";
+  case kind::empty_cardinality: return "empty_cardinality: a task wants more agents than it may have";
+  case kind::empty_team_size: return "empty_team_size: the plan wants more agents than it may have";
+  }
+  return "?";
+}
 
 /// What a plan is made from. The utility may be a plain callable: `.utility = [](agent a, task t, Beliefs const& b) { … }`.
 template <vocabulary V, class Beliefs>

@@ -24,6 +24,13 @@ struct plan_type_defect {
   friend bool operator==(plan_type_defect const&, plan_type_defect const&) = default;
 };
 
+/// The refusal in words, without names: `result` prints it where a refused plan type is taken for a plan type.
+template <vocabulary V>
+[[nodiscard]] constexpr char const* reason_of(plan_type_defect<V> const& d) noexcept {
+  return d.what == plan_type_defect<V>::kind::no_plan ? "no_plan: the plan type has no plan"
+                                                      : "repeated_plan: a plan is listed twice";
+}
+
 namespace detail {
 
 /// One of the plans listed in a call of `plan_type::make`. Views it.

@@ -73,6 +73,14 @@ struct form_of {
   static constexpr bool unique = int{additive} + int{pairwise} + int{general} == 1;
 };
 
+/// A function of its own, so that compilers name the callable and the beliefs.
+template <class F, class V, class Beliefs>
+constexpr void check_signature() {
+  static_assert(form_of<F, V, Beliefs>::unique,
+                "a utility is a callable `double or std::optional<double> (agent, task, Beliefs const&)`, "
+                "`double (agent, task, agent, task, Beliefs const&)` or `double (Beliefs const&, allocation_view<V>)`");
+}
+
 template <class T, class Variant>
 inline constexpr bool is_form = false;
 template <class T, class... Forms>
@@ -86,10 +94,7 @@ template <vocabulary V, class Beliefs, class Variant, class F>
     return Variant(std::forward<F>(f));
   } else {
     using form = form_of<plain, V, Beliefs>;
-    static_assert(
-        form::unique,
-        "a utility is a callable `double or std::optional<double> (agent, task, Beliefs const&)`, "
-        "`double (agent, task, agent, task, Beliefs const&)` or `double (Beliefs const&, allocation_view<V>)`");
+    check_signature<plain, V, Beliefs>();
     if constexpr (!form::unique) {
       return {};
     } else if constexpr (form::additive) {
