@@ -233,6 +233,20 @@ TEST(validity, users_functions_are_asked_about_nothing_the_problem_does_not_know
   EXPECT_TRUE(report.violates(clause::one_plan));
 }
 
+TEST(validity, a_total_beyond_the_greatest_is_no_utility) {
+  for (std::size_t const parts : {1024u, 1025u}) {
+    rota::weighted_sum<names, rota::no_beliefs> sum(parts);
+    for (auto& part : sum) part.part = [](auto, auto, auto) { return rota::max_utility; };
+    auto d = description({});
+    d.utility = sum;
+    one_task_world const w(d);
+    auto const report = validate(w.problem(), atoms_t{at(1)});
+    EXPECT_EQ(report.valid(), parts == 1024);
+    if (!report) EXPECT_EQ(report.begin()->fault, utility_fault::out_of_range);
+    EXPECT_EQ(evaluate(w.problem(), *w.type.find(names::plan(1)), atoms_t{at(1)}).has_value(), parts == 1024);
+  }
+}
+
 TEST(validity, a_plan_outside_the_type_and_an_unknown_plan) {
   one_task_world const w(description([](auto, auto, auto) { return 1.0; }));
   auto d = description([](auto, auto, auto) { return 1.0; });

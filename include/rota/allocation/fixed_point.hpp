@@ -15,7 +15,7 @@ enum class utility_fault : unsigned char {
   not_a_number,       ///< NaN
   positive_infinity,  ///< +∞
   negative_infinity,  ///< −∞; to forbid a pair, return `nullopt`
-  out_of_range,       ///< |u| > `max_utility`, or a sum beyond 64 bits
+  out_of_range,       ///< |u| > `max_utility`, or a total beyond `max_total_utility`
   forbidden_pair,     ///< the additive utility forbids this pair (`nullopt`), so U_p is not defined
   threw,              ///< the user's function threw
   negative            ///< clause (6): U_p < 0
@@ -23,6 +23,9 @@ enum class utility_fault : unsigned char {
 
 /// The greatest magnitude of one utility.
 inline constexpr double max_utility = 1073741824.0;  // 2^30
+
+/// The greatest magnitude of U_p, which may be a sum of many utilities.
+inline constexpr double max_total_utility = 1024 * max_utility;  // 2^40
 
 /// A utility as an integer number of units of 2^-20.
 ///
@@ -35,7 +38,7 @@ struct fixed_utility {
   friend auto operator<=>(fixed_utility, fixed_utility) = default;
 };
 
-/// The fixed-point value nearest to u, halves away from zero, whatever the rounding mode; or why there is none.
+/// The nearest fixed-point value, halves away from zero in every rounding mode; or why there is none.
 [[nodiscard]] constexpr result<fixed_utility, utility_fault> quantise(double u) noexcept {
   if (!detail::is_finite(u)) {
     if (detail::is_nan(u)) return refused{utility_fault::not_a_number};
@@ -49,12 +52,12 @@ struct fixed_utility {
   return fixed_utility{units};
 }
 
-/// The value as a number; exact while its magnitude is at most 2^33.
+/// The value as a number. Exact up to a magnitude of 2^33.
 [[nodiscard]] constexpr double to_double(fixed_utility u) noexcept {
   return static_cast<double>(u.units) / fixed_utility::units_per_one;
 }
 
-/// total ← total + term; false and unchanged where 64 bits do not hold the sum.
+/// total ← total + term. If the sum does not fit 64 bits it returns false and leaves `total` as it is.
 [[nodiscard]] constexpr bool checked_add(fixed_utility& total, fixed_utility term) noexcept {
   using limits = std::numeric_limits<std::int64_t>;
   if (term.units > 0 ? total.units > (limits::max)() - term.units : total.units < (limits::min)() - term.units)

@@ -6,7 +6,7 @@
 
 namespace rota {
 
-/// Refusal: why U_p is not defined on an allocation, and at which atom or two atoms if it is theirs.
+/// Refusal: why U_p is not defined on an allocation; with the atom, or the two atoms, whose utility is at fault.
 template <vocabulary V>
 struct utility_refusal {
   utility_fault why{};
@@ -18,7 +18,7 @@ struct utility_refusal {
 
 namespace detail {
 
-/// U_p of an allocation, or nothing where it is not defined; `fault` takes each reason why it is not.
+/// U_p of an allocation, or nothing if it is not defined; `fault` gets each reason.
 template <vocabulary V, class Beliefs, class Sink>
 [[nodiscard]] std::optional<fixed_utility> value(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
                                                  allocation_view<V> atoms, Sink&& fault) {
@@ -40,17 +40,22 @@ template <vocabulary V, class Beliefs, class Sink>
     if constexpr (std::same_as<part_type, pairwise_utility<V, Beliefs>>)
       for (in<V> const& x : atoms)
         for (in<V> const& y : atoms)
-          if (y.agent > x.agent) count(term_of<V, Beliefs>(problem, weight, part, x, y), x, y);
+          if (x.agent < y.agent) count(term_of<V, Beliefs>(problem, weight, part, x, y), x, y);
   });
+  constexpr auto most = static_cast<std::int64_t>(max_total_utility * fixed_utility::units_per_one);
+  if (defined && (total.units > most || total.units < -most)) {
+    fault(utility_refusal<V>{utility_fault::out_of_range});
+    return std::nullopt;
+  }
   return defined ? std::optional{total} : std::nullopt;
 }
 
 }  // namespace detail
 
-/// U_p(F ∪ C) in fixed point, or the first reason why it is not defined. May be negative: clause (6) is `validate`'s
-/// business.
+/// U_p(F ∪ C) in fixed point, or the first reason why it is not defined. It may be negative; only `validate` checks clause
+/// (6).
 ///
-/// @pre every atom names p, a task of p and a participant: a user's function is never asked about anything else
+/// @pre every atom names p, a task of p and a participant, because the user's functions are not called for other atoms
 /// Complexity: one call per atom, or pair of atoms, or allocation, of each part.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] result<fixed_utility, utility_refusal<V>> evaluate(problem<V, Beliefs> const& problem,

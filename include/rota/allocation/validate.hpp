@@ -9,48 +9,48 @@
 
 namespace rota {
 
-/// What an allocation can violate. (Numbers: Def. 1; the others are stated beside it.)
+/// The conditions that a valid allocation meets. Those with numbers are of Def. 1.
 enum class clause : unsigned char {
-  one_plan,        ///< (0) every atom names the one plan p, and p belongs to the plan type
-  foreign_task,    ///< an atom of p names a task that is not in Tasks(p)
-  stranger,        ///< the agent of an atom of p takes no part, or belongs to no team
-  role,            ///< the agent's role forbids the task
-  cardinality,     ///< (1)–(3) n₁ ≤ |A| ≤ n₂ for every task of p, counting p's atoms only
+  one_plan,        ///< (0) every atom names the same plan p, and p belongs to the plan type
+  foreign_task,    ///< every atom of p names a task of p
+  stranger,        ///< the agent of every atom of p belongs to the team and takes part
+  role,            ///< no role forbids its agent the task
+  cardinality,     ///< (1)–(3) n₁ ≤ |A| ≤ n₂ for every task of p; atoms of other plans do not count
   one_task,        ///< (4) an agent has one task and one state in p
   precondition,    ///< (5) Pre(p)
   utility,         ///< (6) U_p ≥ 0, and it is a number
-  forbidden_pair,  ///< (6) the additive utility forbids the pair, so U_p is not defined
-  team_size,       ///< the plan's own limits on the number of agents that have a task
-  idle_forbidden   ///< a participant has no task though the problem forbids idling
+  forbidden_pair,  ///< (6) the additive utility forbids no pair, or U_p would not be defined
+  team_size,       ///< the plan limits how many agents have a task
+  idle_forbidden   ///< every participant has a task, if the problem forbids idling
 };
 
-/// Whether the team adopts the plan or is already executing it: `precondition_scope::entry_only` asks Pre(p) only of the
-/// former.
+/// Whether the team adopts the plan or executes it already. A precondition that is `precondition_scope::entry_only` is
+/// checked only when the team adopts the plan.
 enum class plan_phase : bool { entering, running };
 
-/// One violated clause and its witness. Fields a clause does not mention keep their default.
+/// One violated clause and its witness. Fields that the clause does not use keep their default.
 template <vocabulary V = runtime_vocabulary>
 struct violation {
   clause what{};
-  typename V::plan plan{};          ///< the plan p against which the judgement was made
-  bool about_atom = false;          ///< whether `atom` is the witness, or the whole allocation is
+  typename V::plan plan{};          ///< the plan p that the allocation was judged against
+  bool about_atom = false;          ///< true: `atom` is the witness; false: the whole allocation is
   in<V> atom{};                     ///< 0, foreign_task, stranger, role, 4, forbidden_pair, 6 (a term's fault)
   in<V> other{};                    ///< 4: the agent's second atom; may differ in state only. 6: of a pair
-  bool about_pair = false;          ///< 6: whether `atom` and `other` together are the witness
+  bool about_pair = false;          ///< 6: true: `atom` and `other` together are the witness
   typename V::state state{};        ///< 4: state of `atom`, where states were given
   typename V::state other_state{};  ///< 4: state of `other`, where states were given
   typename V::agent agent{};        ///< idle_forbidden; and the agent of `atom`
   typename V::task task{};          ///< cardinality; and the task of `atom`
   std::size_t count = 0;            ///< cardinality, team_size: how many agents there are
   cardinality bounds{};             ///< cardinality, team_size: how many there may be
-  utility_fault fault{};            ///< 5: none or threw; 6: negative, or why U_p is not a number
+  utility_fault fault{};            ///< 5: none or threw; 6: negative, or why U_p is not defined
   double value = 0;                 ///< 6: U_p, if negative
 
   friend bool operator==(violation const&, violation const&) = default;
 };
 
 /// Every violation of an allocation, in the order of `clause` (those of (6) together), then ascending by atom, task or
-/// agent. Regular.
+/// agent.
 template <vocabulary V = runtime_vocabulary>
 class validity_report {
 public:
@@ -59,7 +59,7 @@ public:
 
   [[nodiscard]] constexpr bool valid() const noexcept { return found_.empty(); }
   constexpr explicit operator bool() const noexcept { return valid(); }
-  /// The plan the allocation is valid for; for a judgement on the type with C = ∅, the least such plan.
+  /// The plan that the allocation is valid for. Where C = ∅ was judged against a plan type, the least such plan.
   [[nodiscard]] constexpr std::optional<typename V::plan> plan() const noexcept { return plan_; }
   [[nodiscard]] constexpr const_iterator begin() const noexcept { return found_.begin(); }
   [[nodiscard]] constexpr const_iterator end() const noexcept { return found_.end(); }
@@ -89,7 +89,7 @@ private:
 
 namespace detail {
 
-/// What is wrong with one atom by itself; the bits are clauses.
+/// The clauses that one atom violates by itself, as bits.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] unsigned faults_of(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, in<V> const& x) {
   auto bit = [](clause c) { return 1u << static_cast<unsigned>(c); };
@@ -102,7 +102,7 @@ template <vocabulary V, class Beliefs>
          (r != nullptr && !foreign && !r->permits(x.task) ? bit(clause::role) : 0u);
 }
 
-/// A violation made of one atom.
+/// A violation by one atom.
 template <vocabulary V>
 [[nodiscard]] constexpr violation<V> at(clause c, typename V::plan p, in<V> const& x) {
   violation<V> v;
@@ -155,7 +155,7 @@ void judge_team(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, s
   auto const* x = atoms.data();
   auto const* const end = x + atoms.size();
   for (typename V::agent const a : problem.participants) {
-    while (x != end && (a > x->agent || (x->agent == a && x->plan != p.id()))) ++x;
+    while (x != end && (x->agent < a || (x->agent == a && x->plan != p.id()))) ++x;
     if (x != end && x->agent == a) continue;
     violation<V> v;
     v.what = clause::idle_forbidden;
@@ -165,7 +165,7 @@ void judge_team(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, s
   }
 }
 
-/// Clauses (5) and (6) on the atoms that the user's functions may be asked about; U_p where it is defined.
+/// Clauses (5) and (6) on the atoms that the user's functions may be called for. @return U_p, if it is defined
 template <vocabulary V, class Beliefs, class Sink>
 std::optional<fixed_utility> judge_functions(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
                                              std::span<in<V> const> atoms, plan_phase phase, Sink& sink) {
@@ -193,9 +193,9 @@ std::optional<fixed_utility> judge_functions(problem<V, Beliefs> const& problem,
   return total;
 }
 
-/// Every clause of section 3 on C relative to p but (4) on states. `sink` takes each violation.
+/// Judges C against p by every clause of section 3, except (4) on states. `sink` gets each violation.
 ///
-/// @return U_p where it is defined, whatever else is violated
+/// @return U_p if it is defined, even if other clauses are violated
 template <vocabulary V, class Beliefs, class Sink>
 std::optional<fixed_utility> judge(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
                                    std::span<in<V> const> atoms, plan_phase phase, Sink&& sink) {
@@ -232,10 +232,10 @@ std::optional<fixed_utility> judge(problem<V, Beliefs> const& problem, plan<V, B
 
 }  // namespace detail
 
-/// Whether C is valid for p wrt. the beliefs, with every violated clause. Def. 1 and section 3 of docs/algebra.md.
+/// Whether C is valid for p under the beliefs, and every clause that it violates. Def. 1 and section 3 of docs/algebra.md.
 ///
-/// Pre(p) and U_p are read on C restricted to p's tasks and to participants, since a user's function is never asked
-/// about anything else; a forbidden pair or a faulty term leaves U_p undefined, so no total is judged then.
+/// Pre(p) and U_p are evaluated on the atoms of C that name a task of p and a participant: the user's functions are called
+/// for no others. After a forbidden pair or a faulty term U_p is not defined, so its sign is not judged.
 /// Complexity: O(|C| (t + log n)) and the calls of the user's functions. Allocates only to report, or for |C| > 8.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] validity_report<V> validate(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
@@ -251,7 +251,7 @@ template <vocabulary V, class Beliefs>
   return report;
 }
 
-/// As above over atoms with states: clause (4) also refuses an agent with two states.
+/// As above, for atoms with states: an agent with two states violates clause (4), too.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] validity_report<V> validate(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
                                           atom_set<in_state<V>> const& atoms, plan_phase phase = plan_phase::entering) {
@@ -283,11 +283,11 @@ template <vocabulary V, class Beliefs>
   return report;
 }
 
-/// Whether C is valid for some plan of the type: a judgement that finds p itself.
+/// Whether C is valid for some plan of the type. Finds the plan itself.
 ///
-/// A non-empty C is judged against the least plan of the type that occurs in it, and against none (clause (0) at every
-/// atom) if none does. C = ∅ names no plan: it is valid iff it is valid for at least one plan; if for none, the report
-/// lists what every plan says.
+/// A non-empty C is judged against the least plan of the type that occurs in it. If none does, every atom violates clause
+/// (0). C = ∅ names no plan: it is valid iff it is valid for at least one plan; otherwise the report has the violations of
+/// every plan.
 template <vocabulary V, class Beliefs, class Atom>
   requires std::same_as<Atom, in<V>> || std::same_as<Atom, in_state<V>>
 [[nodiscard]] validity_report<V> validate(problem<V, Beliefs> const& problem, atom_set<Atom> const& atoms,

@@ -7,9 +7,9 @@
 
 namespace rota {
 
-/// The names of a plan type without its functions: which plans and tasks exist, and each task's entry state.
+/// A plan type without its functions: which plans and tasks it has, and the entry state of each task.
 ///
-/// What an agent keeps of the model, so that its state stays a regular value and a message can be checked on receipt.
+/// A robot keeps this much of the model. So its own state stays a regular value, and it can check messages on receipt.
 template <vocabulary V = runtime_vocabulary>
 class outline {
 public:
@@ -28,8 +28,9 @@ public:
   }
 
   [[nodiscard]] typename V::plan_type type() const noexcept { return type_; }
-  /// The entry of (p, τ), or nullptr where the type has no such task. O(log n).
+  /// The entry of (p, τ), or nullptr if the type has no such task. O(log n).
   [[nodiscard]] entry const* find(typename V::plan p, typename V::task t) const {
+    // `p > e.plan`, not `e.plan < p`: clang would read the class template `plan` there.
     auto const where = std::lower_bound(entries_.begin(), entries_.end(), 0,
                                         [&](entry const& e, int) { return e.plan == p ? t > e.task : p > e.plan; });
     return where != entries_.end() && where->plan == p && where->task == t ? &*where : nullptr;

@@ -40,7 +40,7 @@ struct no_beliefs {
   friend bool operator==(no_beliefs, no_beliefs) = default;
 };
 
-/// One task of a plan: its cardinality ξ(p, τ), and the state in which an agent that takes it on begins.
+/// One task of a plan: its cardinality ξ(p, τ), and the state in which an agent begins the task.
 template <vocabulary V = runtime_vocabulary>
 struct plan_task {
   typename V::task task;
@@ -66,10 +66,10 @@ struct plan_task {
 /// When Pre(p) must hold.
 enum class precondition_scope : bool {
   always,     ///< as long as the plan runs: Def. 1, the default
-  entry_only  ///< only when a team that is not executing the plan adopts it
+  entry_only  ///< when a team adopts the plan, but not while it runs
 };
 
-/// Pre(p), read over the beliefs and a complete allocation. An empty function holds always.
+/// Pre(p), a condition on the beliefs and a complete allocation. An empty function always holds.
 template <vocabulary V, class Beliefs>
 using precondition = detail::function<bool(Beliefs const&, allocation_view<V>)>;
 
@@ -163,7 +163,7 @@ public:
   [[nodiscard]] typename V::plan id() const noexcept { return d_.plan; }
   /// Tasks(p), ascending.
   [[nodiscard]] std::span<plan_task<V> const> tasks() const noexcept { return d_.tasks; }
-  /// The entry of one task, or nullptr if τ ∉ Tasks(p). O(log t).
+  /// One task, or nullptr if τ ∉ Tasks(p). O(log t).
   [[nodiscard]] plan_task<V> const* find(typename V::task t) const {
     auto const where = std::lower_bound(d_.tasks.begin(), d_.tasks.end(), t,
                                         [](auto const& entry, auto const& key) { return entry.task < key; });

@@ -48,7 +48,7 @@ struct listed_plan {
 
 }  // namespace detail
 
-/// A plan type pt: alternative plans for one problem. A team executes one of them, the best. Immutable.
+/// A plan type pt: alternative plans for one problem. A team executes the best of them. Immutable.
 ///
 /// Class invariant: plans strictly ascending by id and at least one.
 template <vocabulary V = runtime_vocabulary, class Beliefs = no_beliefs>
@@ -77,7 +77,7 @@ public:
   [[nodiscard]] typename V::plan_type id() const noexcept { return id_; }
   /// The plans, ascending by id.
   [[nodiscard]] std::span<plan<V, Beliefs> const> plans() const noexcept { return plans_; }
-  /// One plan, or nullptr if p does not belong to pt. O(log n).
+  /// The plan with this id, or nullptr if pt has none. O(log n).
   [[nodiscard]] plan<V, Beliefs> const* find(typename V::plan p) const {
     auto const where = std::lower_bound(plans_.begin(), plans_.end(), p,
                                         [](auto const& entry, auto const& key) { return entry.id() < key; });

@@ -10,22 +10,22 @@
 
 namespace rota {
 
-/// A role: for each task a priority; a negative priority forbids the task. (Role restrictions: prose of section 3.)
+/// A role gives each task a priority. A negative priority forbids the task. (Role restrictions: prose of section 3.)
 ///
-/// Tasks not listed have the default priority.
+/// A task without a priority of its own has the default priority.
 template <vocabulary V = runtime_vocabulary>
 class role {
 public:
   using task = typename V::task;
 
-  /// Everything permitted at priority 0.
+  /// Permits every task, at priority 0.
   role() = default;
   /// @pre not NaN
   explicit role(double default_priority) : default_priority_(default_priority) {
     ROTA_ASSERT(!detail::is_nan(default_priority));
   }
 
-  /// Sets one priority; the last call for a task counts. O(number of tasks). @pre not NaN
+  /// Sets one priority; for each task the last call counts. O(number of tasks). @pre not NaN
   role& prioritise(task t, double priority) {
     ROTA_ASSERT(!detail::is_nan(priority));
     auto const where = find(t);

@@ -10,16 +10,17 @@
 
 namespace rota {
 
-/// The agents that exist, each with its role. Who of them takes part in a plan type is a belief, not a fact of the team.
+/// The agents that exist, each with its role. Which of them take part in a plan type is a belief of each robot, and not part
+/// of the team.
 ///
-/// Class invariant: agents strictly ascending, so that nothing depends on the order in which they were added.
+/// Class invariant: agents strictly ascending. So nothing depends on the order in which they were added.
 template <vocabulary V = runtime_vocabulary>
 class team {
 public:
   using agent = typename V::agent;
 
   team() = default;
-  /// Agents without restrictions.
+  /// Agents that may have any task.
   team(std::initializer_list<agent> agents) {
     for (agent a : agents) add(a);
   }

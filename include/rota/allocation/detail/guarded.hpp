@@ -6,9 +6,9 @@
 
 namespace rota::detail {
 
-/// f(), or `nullopt` if it threw. Where exceptions are switched off it is just f().
+/// f(), or `nullopt` if it threw. With -fno-exceptions it is just f().
 ///
-/// For the user's predicates and utilities: a decision every 30 ms must not end because one of them failed.
+/// For the user's predicates and utilities: a team must be able to decide although one of them fails.
 template <class F>
 [[nodiscard]] std::optional<std::invoke_result_t<F&>> guarded(F&& f) {
 #if defined(__cpp_exceptions)

@@ -11,19 +11,19 @@
 
 namespace rota::detail {
 
-/// weight·value as a number of units, or why it cannot be counted.
+/// weight·value in fixed point, or why it cannot be counted.
 [[nodiscard]] constexpr result<fixed_utility, utility_fault> weigh(double weight, double value) noexcept {
   return quantise(is_finite(value) ? weight * value : value);
 }
 
-/// total ← total + term; or why not, and total unchanged.
+/// total ← total + term; or why it cannot be added, and `total` stays as it is.
 [[nodiscard]] constexpr utility_fault add(fixed_utility& total,
                                           result<fixed_utility, utility_fault> const& term) noexcept {
   if (!term) return term.error();
   return checked_add(total, term.value()) ? utility_fault::none : utility_fault::out_of_range;
 }
 
-/// One number of the user's, weighed: f() is what the user's function returns.
+/// weight·f() in fixed point, where f calls a function of the user's.
 template <class F>
 [[nodiscard]] result<fixed_utility, utility_fault> ask(double weight, F&& f) {
   auto const value = guarded(f);
@@ -36,7 +36,7 @@ template <class F>
   }
 }
 
-/// What one agent on one task adds to U_p by a part of it: nothing for parts that do not look at agents one by one.
+/// How much one agent on one task adds to U_p by this part. 0 for a part that does not look at agents one by one.
 template <vocabulary V, class Beliefs, class Part>
 [[nodiscard]] result<fixed_utility, utility_fault> term_of(problem<V, Beliefs> const& problem, double weight,
                                                            Part const& part, in<V> const& x) {
@@ -56,7 +56,7 @@ template <vocabulary V, class Beliefs, class Part>
   }
 }
 
-/// What two agents on their tasks add to U_p by a pairwise part of it. @pre x.agent < y.agent
+/// How much two agents on their tasks add to U_p by a pairwise part. @pre x.agent < y.agent
 template <vocabulary V, class Beliefs>
 [[nodiscard]] result<fixed_utility, utility_fault> term_of(problem<V, Beliefs> const& problem, double weight,
                                                            pairwise_utility<V, Beliefs> const& part, in<V> const& x,
@@ -64,7 +64,7 @@ template <vocabulary V, class Beliefs>
   return ask(weight, [&] { return part.together(x.agent, x.task, y.agent, y.task, problem.beliefs); });
 }
 
-/// What a general part adds to U_p.
+/// How much a general part adds to U_p.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] result<fixed_utility, utility_fault> value_of(problem<V, Beliefs> const& problem, double weight,
                                                             general_utility<V, Beliefs> const& part,
