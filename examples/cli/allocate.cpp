@@ -88,6 +88,7 @@ std::string explain(plan_refusal<vocabulary> const& r, question const& q) {
     case no_plan_reason::precondition_never_holds: return "its precondition never holds";
     case no_plan_reason::precondition_threw: return "its precondition failed";
     case no_plan_reason::negative_utility: return "its utility is at most " + number(r.value) + ", below 0";
+    case no_plan_reason::change_cost_refused: return "the change cost " + to_string(r.fault);
     case no_plan_reason::search_incomplete: return "the search ended before it found one";
     }
     return "";

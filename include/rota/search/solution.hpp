@@ -71,7 +71,8 @@ enum class no_plan_reason : unsigned char {
   precondition_threw,        ///< the same, but on some allocations Pre(p) threw
   negative_utility,          ///< U_p is at most `value` < 0 on every allocation: clause (6)
   search_incomplete,         ///< the budget ran out, or a bound lied, before a valid allocation was found
-  utilities_too_great  ///< not searched: those of `agent` are too great to be summed exactly, for so many agents and tasks
+  utilities_too_great,       ///< not searched: the utilities of `agent` are too great to sum so many exactly
+  change_cost_refused        ///< not searched: `problem::change_cost` is negative or cannot be counted, see `fault`
 };
 
 /// Why one plan yields nothing, with its witness. Fields that a reason does not mention keep their default.
@@ -89,6 +90,12 @@ struct plan_refusal {
   utility_fault fault{};
   double value = 0;
 
+  /// Whether it is proved that the plan has no valid allocation.
+  [[nodiscard]] constexpr bool proved() const noexcept {
+    return why != no_plan_reason::search_incomplete && why != no_plan_reason::utilities_too_great &&
+           why != no_plan_reason::change_cost_refused;
+  }
+
   friend bool operator==(plan_refusal const&, plan_refusal const&) = default;
 };
 
@@ -103,7 +110,7 @@ struct no_allocation {
   /// Whether it is proved that no allocation is valid.
   [[nodiscard]] constexpr bool proved() const noexcept {
     for (auto const& p : plans)
-      if (p.why == no_plan_reason::search_incomplete || p.why == no_plan_reason::utilities_too_great) return false;
+      if (!p.proved()) return false;
     return true;
   }
 

@@ -27,7 +27,7 @@ public:
   [[nodiscard]] std::optional<plan_refusal<V>> write() {
     auto const cost = weigh(1, view_.problem.change_cost);
     if (!cost || cost.value().units < 0) {
-      auto r = refusal(no_plan_reason::utility_refused);
+      auto r = refusal(no_plan_reason::change_cost_refused);
       r.fault = cost ? utility_fault::negative : cost.error();
       return r;
     }
