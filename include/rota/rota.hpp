@@ -6,11 +6,11 @@
 #include <rota/algebra/apply.hpp>
 #include <rota/algebra/associativity.hpp>
 #include <rota/algebra/atom_set.hpp>
+#include <rota/algebra/claimed_structures.hpp>
 #include <rota/algebra/delta.hpp>
 #include <rota/algebra/dense_event.hpp>
 #include <rota/algebra/event.hpp>
 #include <rota/algebra/runs.hpp>
-#include <rota/algebra/structures.hpp>
 #include <rota/allocation/problem.hpp>
 #include <rota/allocation/utility.hpp>
 #include <rota/allocation/validate.hpp>

@@ -5,8 +5,8 @@
 #include "support/allocation_counter.hpp"
 
 #include <rota/algebra/allocation_event.hpp>
+#include <rota/algebra/claimed_structures.hpp>
 #include <rota/algebra/runs.hpp>
-#include <rota/algebra/structures.hpp>
 
 #include <array>
 #include <concepts>

@@ -3,8 +3,8 @@
 #include "algebra/universe.hpp"
 
 #include <rota/algebra/associativity.hpp>
+#include <rota/algebra/claimed_structures.hpp>
 #include <rota/algebra/runs.hpp>
-#include <rota/algebra/structures.hpp>
 
 #include <gtest/gtest.h>
 

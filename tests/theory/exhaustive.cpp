@@ -3,9 +3,9 @@
 
 #include <rota/algebra/apply.hpp>
 #include <rota/algebra/associativity.hpp>
+#include <rota/algebra/claimed_structures.hpp>
 #include <rota/algebra/dense_event.hpp>
 #include <rota/algebra/runs.hpp>
-#include <rota/algebra/structures.hpp>
 #include <rota/core/atom.hpp>
 #include <rota/team/conflict.hpp>
 #include <rota/team/cycle.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/algebra/bit_planes.hpp>
+#include <rota/algebra/detail/bit_planes.hpp>
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <rota/algebra/atom_set.hpp>
-#include <rota/algebra/merge.hpp>
+#include <rota/algebra/detail/merge.hpp>
 #include <rota/core/result.hpp>
 
 #include <compare>

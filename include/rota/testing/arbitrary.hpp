@@ -2,7 +2,7 @@
 /// @file
 /// rapidcheck generators of the algebra's types, over few atoms, so that random values meet; see values.hpp.
 
-#include <rota/algebra/structures.hpp>
+#include <rota/algebra/claimed_structures.hpp>
 #include <rota/testing/groupoid_laws.hpp>
 #include <rota/testing/show.hpp>
 #include <rota/testing/structure_laws.hpp>

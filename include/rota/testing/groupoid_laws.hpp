@@ -1,7 +1,6 @@
 #pragma once
 
-#include <rota/algebra/group_action.hpp>
-#include <rota/algebra/groupoid.hpp>
+#include <rota/algebra/structures.hpp>
 #include <rota/testing/structure_laws.hpp>
 
 #include <functional>

@@ -7,7 +7,7 @@
 /// although they follow from others where the operation commutes or associates. Those called `…_theorems` hold what
 /// follows, a second look at an implementation; a theorem falls with an axiom.
 
-#include <rota/algebra/abelian_group.hpp>
+#include <rota/algebra/structures.hpp>
 #include <rota/testing/law.hpp>
 
 namespace rota::testing {
