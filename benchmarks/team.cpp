@@ -168,11 +168,12 @@ void receive_plan_message(benchmark::State& state) {
 /// A message that disagrees, and the deliberation that restores what was: one cycle, judged by the default monitor.
 void monitor_step(benchmark::State& state) {
   rota::cycle_monitor<vocabulary> monitor(rota::monitor_options{.cycles = 4});
-  std::vector<std::optional<atom>> parts;
+  std::vector<rota::part_change<vocabulary>> leave;
   rota::allocation_atoms<vocabulary> atoms;
   for (std::uint64_t b = 0; b < robots; ++b) {
-    parts.push_back(atom{{b}, normal, {b % tasks}});
-    atoms.insert(*parts.back());
+    atom const part{{b}, normal, {b % tasks}};
+    leave.push_back({{b}, part, std::nullopt});
+    atoms.insert(part);
   }
   event const nothing;
   rota::instant now{};
@@ -181,7 +182,7 @@ void monitor_step(benchmark::State& state) {
   counted(state, [&] {
     now = now + tick;
     b = b + 1 == robots ? 1 : b + 1;
-    monitor.on_message({{b}, parts[b], std::nullopt}, now);
+    monitor.on_message(leave[b], now);
     auto const v = monitor.on_deliberation(nothing, atoms, now);
     check(v.cycles == 1, "one cycle");
     detections += v.detected.has_value();

@@ -80,6 +80,30 @@ TEST_F(messages, old_and_duplicate_snapshots_are_dropped) {
   EXPECT_EQ(a.receive(says(2, 8, attack), start).verdict, verdict::stale);
 }
 
+/// What a constant incarnation would do: the restarted robot is unheard until it has sent as many messages as before.
+TEST_F(messages, a_restarted_robot_is_heard_at_once_if_its_incarnation_has_grown) {
+  static_assert(rota::incarnation::started_at(1'299'000'000).value == 1'299'000'000);
+  static_assert(rota::incarnation::started_at(1) < rota::incarnation::started_at(2));
+  static_assert(rota::incarnation::started_at(-1) == rota::incarnation{}, "a clock before 1970 is no clock");
+  for (auto const second : {rota::incarnation{2}, rota::incarnation{1}}) {
+    auto peer = in_play(1);
+    auto a = in_play(2);
+    EXPECT_EQ(a.incarnation(), first_life);
+    for (int ms = 0; ms < 1000; ms += 100) peer.receive(*a.next_message(start + milliseconds(ms)), start);
+    robot again(agent(2), squad(9), second);
+    again.enter(play, start);
+    auto const heard = peer.receive(*again.next_message(start), start).verdict;
+    EXPECT_EQ(heard, second > first_life ? verdict::accepted : verdict::stale);
+  }
+}
+
+#ifndef NDEBUG
+TEST_F(messages, a_robot_without_an_incarnation_is_asserted) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_DEATH(robot(agent(1), squad(9), rota::incarnation{}), "value > 0");
+}
+#endif
+
 TEST_F(messages, plan_messages_keep_a_drift_free_grid_under_a_30_ms_loop) {
   rota::robot_options options;
   options.first_message = start + milliseconds(17);
