@@ -113,7 +113,8 @@ TEST(too_great, sums_of_parts_are_refused_as_such) {
   for (int const parts : {33, 1024, 1025, 4096}) {
     question const q(1, {{names::task(0), {0, 1}, {}}}, all(parts));
     rota::problem const problem{q.type, q.team};
-    EXPECT_TRUE(validate(problem, q.type.plans()[0], pair).valid()) << parts << ": valid, but beyond what is searched";
+    bool const valid = validate(problem, q.type.plans()[0], pair).valid();
+    EXPECT_EQ(valid, parts <= 1024);  // a total up to 2^40 is a utility, but beyond what is searched
     auto const none = best_allocation(problem, work);
     ASSERT_FALSE(none) << parts;
     EXPECT_FALSE(none.error().proved());
@@ -121,8 +122,9 @@ TEST(too_great, sums_of_parts_are_refused_as_such) {
     EXPECT_EQ(none.error().plans[0].agent, names::agent(0));
     EXPECT_FALSE(none.error().ignored) << parts << ": every term is a utility";
     auto const kept = reallocate(problem.running(pair), {}, work);
-    EXPECT_EQ(kept.reason, rota::reallocation_reason::kept_unproved);
-    EXPECT_EQ(kept.atoms, pair);
+    EXPECT_EQ(kept.reason,
+              valid ? rota::reallocation_reason::kept_unproved : rota::reallocation_reason::search_incomplete);
+    EXPECT_EQ(kept.atoms, valid ? pair : rota::allocation_atoms<names>{});
     EXPECT_EQ(kept.refusals.size(), 1u);
   }
   question const q(1, {{names::task(0), {0, 1}, {}}}, all(8));
@@ -130,15 +132,30 @@ TEST(too_great, sums_of_parts_are_refused_as_such) {
   auto const most = best_allocation(problem, work);
   ASSERT_TRUE(most);
   EXPECT_EQ(most->utility, 8 * rota::max_utility);
-  // Beyond 64 bits the sum is no utility, for validate as for the search.
-  question const beyond(1, {{names::task(0), {0, 1}, {}}}, all(8192));
-  rota::problem const overflowing{beyond.type, beyond.team};
-  EXPECT_FALSE(validate(overflowing, beyond.type.plans()[0], pair).valid());
-  auto const idle = best_allocation(overflowing, work);
-  ASSERT_TRUE(idle);
-  EXPECT_TRUE(idle->atoms.empty());
-  ASSERT_TRUE(idle->ignored);
-  EXPECT_EQ(idle->ignored->why, rota::utility_fault::out_of_range);
+}
+
+// What validate calls no utility, the search leaves out: sums of one agent beyond 64 bits, totals beyond 2^40.
+TEST(too_great, totals_that_are_no_utility_are_left_out) {
+  rota::weighted_sum<names, rota::no_beliefs> of_agents;
+  rota::weighted_sum<names, rota::no_beliefs> of_the_whole;
+  for (int i = 0; i < 8192; ++i)
+    of_agents.push_back({1.0, [](names::agent, names::task, rota::no_beliefs) { return rota::max_utility; }});
+  for (int i = 0; i < 1025; ++i)
+    of_the_whole.push_back(
+        {1.0, [](rota::no_beliefs, rota::allocation_view<names> c) { return c.empty() ? 0 : rota::max_utility; }});
+  auto const pair = rota::allocation_atoms<names>{{names::agent(0), {}, names::task(0)}};
+  rota::workspace work;
+  for (auto const& sum : {of_agents, of_the_whole}) {
+    question const q(1, {{names::task(0), {0, 1}, {}}}, sum);
+    rota::problem const problem{q.type, q.team};
+    EXPECT_FALSE(validate(problem, q.type.plans()[0], pair).valid());
+    auto const idle = best_allocation(problem, work);
+    ASSERT_TRUE(idle);
+    EXPECT_TRUE(idle->optimal);
+    EXPECT_TRUE(idle->atoms.empty());
+    ASSERT_TRUE(idle->ignored);
+    EXPECT_EQ(idle->ignored->why, rota::utility_fault::out_of_range);
+  }
 }
 
 // One default for all, so that units compiled with and without NDEBUG agree. Without an audit, a lie can go unseen.

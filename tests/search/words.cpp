@@ -172,7 +172,7 @@ TEST(describe, a_utility_that_is_none) {
   rota::plan_refusal<soccer> r;
   r.why = rota::no_plan_reason::utility_refused;
   r.fault = rota::utility_fault::positive_infinity;
-  EXPECT_EQ(describe(r), "the utility of plan normal is +infinity");
+  EXPECT_EQ(describe(r), "the utility is +infinity");
   r.about_atom = true;
   r.agent = soccer::agent::left;
   r.task = soccer::task::defend;

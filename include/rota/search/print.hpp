@@ -49,18 +49,6 @@ namespace rota {
 
 namespace detail {
 
-/// "the utility of agent a on task t is not a number".
-template <vocabulary V, class Names>
-[[nodiscard]] std::string words(utility_refusal<V> const& r, typename V::plan p, Names const& name) {
-  violation<V> v;
-  v.what = clause::utility;
-  v.plan = p;
-  v.fault = r.why;
-  if (r.atom) v.about_atom = true, v.atom = *r.atom, v.agent = r.atom->agent, v.task = r.atom->task;
-  if (r.other) v.about_pair = true, v.other = *r.other;
-  return describe(v, name);
-}
-
 /// How far the best may be from an allocation that is not proved to be it.
 [[nodiscard]] inline std::string words_of_gap(double gap) {
   if (!is_finite(gap)) return "another may be better, by an unknown amount";
@@ -73,9 +61,7 @@ template <vocabulary V, class Names>
 [[nodiscard]] std::string complaints(std::optional<utility_refusal<V>> const& ignored,
                                      std::optional<bound_lie<V>> const& lie, Names const& name) {
   std::string out;
-  if (ignored)
-    out += "; left out: " +
-           (ignored->atom ? words(*ignored, ignored->atom->plan, name) : "a utility that " + to_string(ignored->why));
+  if (ignored) out += "; left out: " + describe(*ignored, name);
   if (lie)
     out += "; nothing is proved, for the bound of plan " + name(lie->plan) + " is wrong: it says at most " +
            number(lie->bound) + " where " + number(lie->value) + " is possible";
@@ -103,7 +89,7 @@ template <vocabulary V, class Names = default_names>
     utility_refusal<V> u{r.fault, {}, {}};
     if (r.about_atom) u.atom = in<V>{r.agent, r.plan, r.task};
     if (r.about_pair) u.other = r.other;
-    return detail::words(u, r.plan, name);
+    return describe(u, name);
   }
   case no_plan_reason::precondition_never_holds: return "the precondition holds on no allocation";
   case no_plan_reason::precondition_threw: return "the precondition threw";

@@ -61,18 +61,17 @@ public:
       if (!holds || !*holds) return a;
     }
     fixed_utility total{sum};
-    if (view_.coupled()) {
-      a.fault = add_others(total, assignment, atoms);
-      if (a.fault) return a;
+    if (view_.coupled()) a.fault = add_others(total, assignment, atoms);
+    if (a.fault) return a;
+    auto const utility = utility_of(assignment, in_units(total.units));
+    constexpr auto most = static_cast<std::int64_t>(max_total_utility * fixed_utility::units_per_one);
+    if (utility > most || utility < -most) {
+      a.fault = utility_refusal<V>{utility_fault::out_of_range, {}, {}};
+    } else if (utility < 0 && change_cost_ != 0) {
+      a.negative_utility = utility;
+    } else {
+      a.worth = total.units;
     }
-    if (change_cost_ != 0) {
-      auto const utility = utility_of(assignment, in_units(total.units));
-      if (utility < 0) {
-        a.negative_utility = utility;
-        return a;
-      }
-    }
-    a.worth = total.units;
     return a;
   }
 
