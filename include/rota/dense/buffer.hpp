@@ -9,8 +9,8 @@
 
 namespace rota::dense {
 
-/// A growing array of plain values, with what the solvers need of std::vector and nothing else: there are a dozen kinds of
-/// values here, and each kind of std::vector costs whoever includes this hundredths of a second.
+/// A growing array of plain values: the part of std::vector that solvers need. Each instantiation of std::vector costs a
+/// unit hundredths of a second to compile, and there are a dozen kinds of values here.
 ///
 /// Never shrinks. Complexity and guarantees as std::vector.
 template <class T>

@@ -9,21 +9,20 @@
 
 namespace rota::dense {
 
-/// Makes ties rare, or impossible: utility u of a pair becomes the key u·2^shift + preference(agent, slot).
+/// Makes ties rare, or impossible: the utility u of a pair becomes the key u·2^shift + preference(agent, slot).
 ///
-/// The best total of keys is a best total of utilities, since all preferences together stay below 2^shift. Which of the
-/// equally good assignments is it?
-/// - where s^n fits: preferences are the digits of a number, so it is the lexicographically smallest, and no two totals are
-///   equal: `unique()`;
-/// - otherwise: preferences are a fixed hash of (agent, slot), so it is one of few, and a solver that finds several takes the
-///   lexicographically smallest of these. This is what keeps teams of interchangeable agents from costing a search each.
-/// Depends on the instance only: on how many agents and slots there are, and on the least power of two above all
-/// utilities.
+/// All preferences together stay below 2^shift, so an assignment with the greatest total of keys has a greatest total of
+/// utilities. Among several of these, keys decide:
+/// - if s^n fits into the spare bits, preferences are the digits of a number: the lexicographically smallest wins, and no two
+///   totals of keys are equal (`unique`);
+/// - otherwise preferences are a fixed hash of (agent, slot): ties are rare, and of those that remain a solver takes the
+///   lexicographically smallest. Without this, every interchangeable agent would cost a search.
+/// A rule depends on three numbers only: agents, slots, and the bits of the greatest utility.
 class tie_rule {
 public:
   /// For no agents and no slots.
   tie_rule() = default;
-  /// For n agents and s slots of utilities up to `magnitude`. @pre fits(n, s, magnitude)
+  /// For n agents and s slots with utilities of at most `magnitude`. @pre fits(n, s, magnitude)
   tie_rule(std::size_t agents, std::size_t slot_count, std::uint64_t magnitude) noexcept
       : agents_(static_cast<unsigned>(agents)), slots_(slot_count) {
     auto const bits = [](std::uint64_t n) { return static_cast<unsigned>(std::bit_width(n)); };
@@ -47,7 +46,7 @@ public:
   [[nodiscard]] std::int64_t key(std::int64_t utility, std::size_t agent, std::size_t s) const noexcept {
     return utility * (std::int64_t{1} << shift_) + preference(agent, s);
   }
-  /// A row of keys from a row of utilities; absent stays absent.
+  /// Turns a row of utilities into a row of keys; `absent` stays `absent`.
   void keys(std::size_t agent, std::int64_t const* utility, std::int64_t* key) const noexcept {
     auto const weight = unique_ ? digit(agent) : 0;
     for (std::size_t s = 0; s < slots_; ++s) {
@@ -55,7 +54,7 @@ public:
       key[s] = utility[s] == absent ? absent : utility[s] * (std::int64_t{1} << shift_) + more;
     }
   }
-  /// Of a total of keys, the total of utilities; of a bound on keys, a bound on utilities.
+  /// Turns a total of keys into the total of utilities, and a bound on keys into a bound on utilities.
   [[nodiscard]] std::int64_t utility(std::int64_t total) const noexcept { return total >> shift_; }
   /// Whether no two assignments have the same total of keys.
   [[nodiscard]] bool unique() const noexcept { return unique_; }
@@ -66,7 +65,7 @@ private:
   [[nodiscard]] std::int64_t preference(std::size_t agent, std::size_t s) const noexcept {
     return unique_ ? digit(agent) * static_cast<std::int64_t>(slots_ - 1 - s) : noise(agent, s);
   }
-  /// s^(n−1−a): what one slot earlier is worth to agent a.
+  /// s^(n−1−a): the preference of agent a for a slot over the next one.
   [[nodiscard]] std::int64_t digit(std::size_t agent) const noexcept {
     std::int64_t weight = 1;
     for (auto a = agent + 1; a < agents_; ++a) weight *= static_cast<std::int64_t>(slots_);

@@ -10,18 +10,16 @@
 
 namespace rota::dense::detail {
 
-/// Whether an optimum is the only one, and if not, the lexicographically smallest (agent → slot) of all.
+/// Turns an optimum into the lexicographically smallest (agent → slot) of all optima.
 ///
-/// Optima differ by cycles of tight arcs, whichever optimal prices are taken. So where the tight arcs between slots and sink
-/// have no cycle, there is one optimum: O(s²). Otherwise, for each agent in order, with those before it fixed: the
-/// smallest slot that is tight for it and from which later agents can make room becomes its own. O(n·s + c·s²/64), c the
-/// agents that have a choice; memory O(s²).
+/// Optima differ by cycles of tight arcs, at any optimal prices. So if the tight arcs between slots and sink have no cycle,
+/// the optimum is the only one: O(s²). Otherwise each agent in order, with those before it fixed, gets the smallest slot that
+/// is tight for it and in which later agents can make room. O(n·s + c·s²/64), c the agents that have a choice; memory O(s²).
 class canonical_choice {
 public:
   /// @pre `graph` is balanced
   void make(slot_graph& graph) {
     if (unique(graph)) return;
-    ++resolved_;
     nodes_ = graph.sink() + 1;
     words_ = (nodes_ + 63) / 64;
     movers_.assign(nodes_ * nodes_, 0);
@@ -35,9 +33,6 @@ public:
       fix(graph, a);
     }
   }
-
-  /// How often there was more than one optimum.
-  [[nodiscard]] std::uint64_t resolved() const noexcept { return resolved_; }
 
 private:
   [[nodiscard]] bool unique(slot_graph& graph) {
@@ -57,8 +52,8 @@ private:
       if (may_get(graph, j)) ++degree_[j];
       begin_[j + 1] = static_cast<std::uint32_t>(heads_.size());
     }
-    if (!somebody) return true;  // places alone make no other optimum
-    // Strip what nothing leads to; what remains lies on cycles or behind them.
+    if (!somebody) return true;  // trading places alone changes no assignment
+    // Strip nodes that no arc leads to; the rest lies on cycles or behind them.
     queue_.clear();
     for (std::size_t v = 0; v <= slot_count; ++v)
       if (degree_[v] == 0) queue_.push_back(static_cast<slot>(v));
@@ -78,7 +73,7 @@ private:
   }
   [[nodiscard]] bool on_no_cycle(std::size_t v) const { return degree_[v] == 0; }
 
-  /// Whether slot k may trade a place with the sink at no cost.
+  /// Whether slot k can open or close a place at no cost.
   [[nodiscard]] static bool may_give(slot_graph const& graph, std::size_t k) {
     return graph.price(k) == graph.price(graph.sink()) && graph.may_open(k);
   }
@@ -91,7 +86,7 @@ private:
     auto const j = graph.who().home(a);
     return k != j && in.at(a, k) - in.at(a, j) + graph.price(j) == graph.price(k);
   }
-  /// Adds agent a to the movers of the arcs it could use, or takes it out.
+  /// Adds `change` to the movers of each arc that agent a could use.
   void count(slot_graph const& graph, row_index a, int change) {
     std::size_t const j = graph.who().home(a);
     if (on_no_cycle(j)) return;
@@ -105,7 +100,7 @@ private:
     }
   }
 
-  /// The smallest slot for agent a, whom `count` has forgotten, as later agents can arrange it.
+  /// Gives agent a the smallest slot in which later agents can make room. @pre `count` has taken a out
   void fix(slot_graph& graph, row_index a) {
     std::size_t const home = graph.who().home(a);
     std::size_t k = 0;
@@ -134,7 +129,7 @@ private:
     }
   }
 
-  /// way_[v] ← the next node on a tight way v → … → home of counted movers, or no_slot.
+  /// way_[v] ← the next node on a tight way v → … → home for counted agents, or no_slot.
   void find_ways(slot_graph const& graph, std::size_t home) {
     way_.assign(nodes_, no_slot);
     way_[home] = static_cast<slot>(home);
@@ -158,16 +153,15 @@ private:
     }
   }
 
-  buffer<slot> heads_;  // of the tight arcs from slot j: those from begin_[j] to begin_[j + 1]
+  buffer<slot> heads_;  // tight arcs from slot j lead to heads_[begin_[j]] … heads_[begin_[j + 1] - 1]
   buffer<std::uint32_t> begin_;
-  buffer<std::uint32_t> degree_;  // tight arcs that lead to a node; 0 once stripped
+  buffer<std::uint32_t> degree_;  // how many tight arcs lead to a node; 0 once stripped
   buffer<slot> queue_;
   buffer<slot> way_;
   std::size_t nodes_ = 0;
   std::size_t words_ = 0;
-  buffer<std::uint32_t> movers_;  // [from][to]: agents not fixed yet that could move so
-  buffer<std::uint64_t> before_;  // [to]: the nodes from which somebody could move there, as bits
-  std::uint64_t resolved_ = 0;
+  buffer<std::uint32_t> movers_;  // [from][to]: how many agents, not yet fixed, could move
+  buffer<std::uint64_t> before_;  // [to]: from which nodes an agent could move there, as bits
 };
 
 }  // namespace rota::dense::detail

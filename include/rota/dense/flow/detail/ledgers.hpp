@@ -12,13 +12,13 @@
 
 namespace rota::dense::detail {
 
-/// For slots that can hold many agents: for each other slot the greatest gain of moving a member there, and whose it is.
+/// For each slot that can hold many agents, and each other slot: the greatest gain of moving a member there, and its agent.
 ///
-/// An upper bound, since nobody looks for members who have left until their entry is about to be used. Members that were
-/// content with their slot by a margin, when prices were known well, *rest*: prices then say how little they can gain, and
-/// nobody asks them unless it comes to that.
+/// The gain is an upper bound: an entry whose agent has left stays until it is about to be used. Members *rest* if they
+/// prefer their slot by a margin at prices that are nearly right: prices then bound what they can gain, and only a repair
+/// that needs more than this bound looks at them.
 ///
-/// Complexity: O(s) for each member that comes; a repair asks the members that do not rest. O(s²) memory.
+/// Complexity: O(s) for each member that comes; a repair looks at the members that do not rest. O(s²) memory.
 class ledgers {
 public:
   using value = std::int64_t;
@@ -42,25 +42,25 @@ public:
     return true;
   }
 
-  /// Forgets everything; nothing is written until `open`.
+  /// Forgets all entries; writes nothing until `open`.
   void close() {
     open_ = false;
     std::fill(gain_.begin(), gain_.end(), no_gain);
     std::fill(mover_.begin(), mover_.end(), membership::nobody);
   }
-  /// Begins to write, with what members there are. O(n·s)
+  /// Writes an entry for each present member, and from now on for each that comes. O(n·s)
   void open(instance const& in, membership const& who) {
     open_ = true;
     for (row_index a = 0; a < who.homes().size(); ++a)
       if (who.home(a) != no_slot) write(in, who, a);
   }
-  /// Notes what agent a, who has just come, would gain elsewhere.
+  /// Notes what agent a, which has just come, would gain elsewhere.
   void write(instance const& in, membership const& who, row_index a) {
     auto const j = who.home(a);
     if (open_ && has(j))
       kernel::raise(in.row(a), who.worth(a), a, gain_.data() + at(j, 0), mover_.data() + at(j, 0), slots_);
   }
-  /// From now on agents can rest who prefer their slot by `margin` at least, at these prices.
+  /// From now on, agents that prefer their slot by at least `margin` at these prices can rest.
   void let_rest(std::span<value const> prices, value margin) {
     rest_price_.assign(prices.begin(), prices.end());
     rest_margin_ = margin;
@@ -72,13 +72,13 @@ public:
   [[nodiscard]] row_index mover(std::size_t j, std::size_t k) const noexcept {
     return static_cast<row_index>(mover_[at(j, k)]);
   }
-  /// Whether a member is named for k, with what it gains now.
+  /// Whether the entry of j for k names a member, with what it gains now.
   [[nodiscard]] bool current(instance const& in, membership const& who, std::size_t j, std::size_t k) const {
     auto const a = mover(j, k);
     return a != membership::nobody && who.home(a) == j && gain_[at(j, k)] == in.at(a, k) - who.worth(a);
   }
-  /// Looks for who gains most by moving from j to k: among those who do not rest; if that leaves it open, names nobody, and
-  /// looks among all of them when it is called again. @return how many were asked
+  /// Finds the member of j that gains most by moving to k, among those that do not rest. If a resting one may gain more, the
+  /// entry names nobody, and the next call looks at all members. @return how many were looked at
   std::size_t repair(instance const& in, membership const& who, std::size_t j, std::size_t k) {
     auto& gain = gain_[at(j, k)];
     auto& mover = mover_[at(j, k)];
@@ -103,14 +103,14 @@ public:
   }
 
 private:
-  /// Below five agents, asking each is as quick as keeping books.
+  /// Below five agents, looking at each is as quick as a ledger.
   static constexpr bool keeps_one(slot_bounds b) noexcept { return b.upper > 4; }
   [[nodiscard]] std::size_t at(std::size_t j, std::size_t k) const noexcept { return row_of_[j] * slots_ + k; }
 
   std::size_t slots_ = 0;
-  buffer<slot> row_of_;  // of a slot, its row in the two below
-  buffer<value> gain_;   // at least what any member gains by moving
-  buffer<value> mover_;  // who: as wide as gains, for the lanes
+  buffer<slot> row_of_;  // the row of a slot in the two below
+  buffer<value> gain_;   // no member gains more by moving
+  buffer<value> mover_;  // which agent; as wide as gains, for vectors
   bool open_ = false;
   buffer<value> rest_price_;
   value rest_margin_ = 0;

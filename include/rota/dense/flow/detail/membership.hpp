@@ -9,14 +9,14 @@
 
 namespace rota::dense::detail {
 
-/// Who is in which slot, and what it is worth there. The members of a slot can be listed; those who rest come last.
+/// Which agent is in which slot, and what it is worth there. Each slot lists its members; those who rest come last.
 ///
 /// Complexity: O(1) to put, rest and take; O(n + s) memory.
 class membership {
 public:
   static constexpr row_index nobody = ~row_index{0};
 
-  /// Nobody is anywhere.
+  /// Begins with no agent in any slot.
   void reset(std::size_t agents, std::size_t slot_count) {
     home_.assign(agents, no_slot);
     worth_.resize(agents);
@@ -29,7 +29,7 @@ public:
     total_ = 0;
   }
 
-  /// Puts agent a, who is nowhere, into slot j, before all others.
+  /// Puts agent a at the head of slot j. @pre a is in no slot
   void put(row_index a, slot j, std::int64_t worth) {
     enter(a, j, worth);
     resting_[a] = 0;
@@ -38,7 +38,7 @@ public:
     (head_[j] == nobody ? tail_[j] : previous_[head_[j]]) = a;
     head_[j] = a;
   }
-  /// Puts agent a, who is nowhere, into slot j to rest there, behind all others.
+  /// Puts agent a at the end of slot j, where it rests. @pre a is in no slot
   void rest(row_index a, slot j, std::int64_t worth) {
     enter(a, j, worth);
     resting_[a] = 1;
@@ -63,7 +63,7 @@ public:
   [[nodiscard]] std::int64_t worth(std::size_t a) const noexcept { return worth_[a]; }
   [[nodiscard]] bool rests(std::size_t a) const noexcept { return resting_[a] != 0; }
   [[nodiscard]] std::uint32_t count(std::size_t j) const noexcept { return count_[j]; }
-  /// What everybody together is worth.
+  /// The sum of what all agents are worth in their slots.
   [[nodiscard]] std::int64_t total() const noexcept { return total_; }
   /// The members of a slot: first(j), then next(a) until `nobody`.
   [[nodiscard]] row_index first(std::size_t j) const noexcept { return head_[j]; }

@@ -11,17 +11,17 @@
 
 namespace rota::dense::detail {
 
-/// Where to begin: prices at which few agents have to move, and everybody where it is worth most at them.
+/// Finds first prices, and puts each agent into its best slot at them.
 ///
-/// Any prices will do for the result; good ones save most of the searches. Three openings:
-/// - few agents a slot: a short auction. Agents bid in turn for their best slot, as far as their second best allows; a slot
-///   that is full raises its price to what its members bid least. Nobody is ever where it would not be.
-/// - one agent a slot, all to be filled: the same, but prices begin where one agent is content with each slot.
-/// - many agents a slot, or so many who want the same that an auction does not end: prices from a quarter of the agents, and
-///   theirs from a quarter of these. Chosen by hash: a stride could meet the classes of equal agents.
+/// The result is the same with any prices; good ones save most of the searches. There are three openings:
+/// - for few agents a slot, a short auction: agents bid in turn for their best slot, up to where their second best is as
+///   good; a full slot raises its price to the least bid of its members. Each agent is in its best slot throughout.
+/// - for one agent a slot, all to be filled: the same, with the greatest utility of each slot as its first price.
+/// - for many agents a slot, or if too many agents want the same for the auction to end: a sample. Prices come from a quarter
+///   of the agents, and theirs from a quarter of these. A hash chooses them: a stride could follow classes of equal agents.
 class opening {
 public:
-  /// Places everybody who takes part; false if somebody has no pair at all. @pre `graph` holds nobody
+  /// Places all agents that take part; false if all pairs of one of them are forbidden. @pre all slots are empty
   [[nodiscard]] bool play(slot_graph& graph, std::size_t agents, work_limit const& limit) {
     homeless_ = membership::nobody;
     if (agents > crowd * graph.slot_count() || !auction(graph, agents)) sample(graph, agents, limit);
@@ -29,15 +29,15 @@ public:
     return homeless_ == membership::nobody;
   }
 
-  /// The first agent without any pair, or `nobody`.
+  /// The first agent whose pairs are all forbidden, or `nobody`.
   [[nodiscard]] row_index homeless() const noexcept { return homeless_; }
 
 private:
   using value = slot_graph::value;
-  static constexpr std::size_t few = 8;     // agents a slot below which a sample says nothing
-  static constexpr std::size_t crowd = 32;  // agents a slot from which on a sample says more than an auction
+  static constexpr std::size_t few = 8;     // with fewer agents a slot, a sample tells nothing
+  static constexpr std::size_t crowd = 32;  // with more agents a slot, a sample tells more than an auction
   static constexpr unsigned quarter = 2;    // as a shift
-  static constexpr value captive = (std::numeric_limits<value>::max)();  // the bid of who has no second slot
+  static constexpr value captive = (std::numeric_limits<value>::max)();  // the bid of an agent that has no second slot
 
   void place(slot_graph& graph, row_index a) {
     if (!graph.place(a)) homeless_ = (std::min)(homeless_, a);
@@ -45,7 +45,7 @@ private:
 
   // Auction -----------------------------------------------------------------------------------------------------------
 
-  /// False, with nobody placed, if so many wait in the end that a sample says more.
+  /// False, with all slots empty, if so many agents wait in the end that a sample tells more.
   bool auction(slot_graph& graph, std::size_t agents) {
     instance const& in = graph.problem();
     bid_.assign(in.agents, 0);
@@ -62,11 +62,11 @@ private:
     }
     graph.keep_ledgers();
     for (auto const a : waiting_)
-      if (graph.who().home(a) == no_slot) place(graph, a);  // who waited may have bid again
+      if (graph.who().home(a) == no_slot) place(graph, a);  // the others have bid again since
     return true;
   }
 
-  /// Agent a goes to its best slot, or waits, or pushes somebody out, or meets a higher price. @return who bids next
+  /// Agent a enters its best slot, waits, displaces a member, or raises the price. @return the agent that bids next
   row_index bid(slot_graph& graph, row_index a) {
     auto const price = graph.prices();
     auto const [best, second, j] = kernel::best_two(graph.problem().row(a), price.data(), graph.slot_count());
@@ -88,8 +88,8 @@ private:
       return rival;
     }
     if (stays == price[j] || bid_[a] == captive) return wait(a);
-    price[j] =
-        stays == captive ? bid_[a] + 1 : stays;  // where nobody inside can leave, any price will do that a will not pay
+    // If no member can leave, any price is right that a does not pay.
+    price[j] = stays == captive ? bid_[a] + 1 : stays;
     return a;
   }
   row_index wait(row_index a) {
@@ -112,14 +112,14 @@ private:
     return found;
   }
 
-  /// Whether every slot takes one agent, and all are needed.
+  /// Whether every slot needs and takes exactly one agent.
   [[nodiscard]] static bool one_each(slot_graph const& graph, std::size_t agents) {
     if (agents != graph.slot_count()) return false;
     for (std::size_t k = 0; k < graph.slot_count(); ++k)
       if (!(graph.bounds(k) == slot_bounds{1, 1})) return false;
     return true;
   }
-  /// Each slot costs what it is worth most to anybody, who gets it unless it has got another.
+  /// Prices each slot at its greatest utility, and puts that agent into it unless it has a slot already.
   void choose_for_slots(slot_graph& graph) {
     instance const& in = graph.problem();
     auto const price = graph.prices().first(graph.slot_count());
@@ -164,7 +164,7 @@ private:
     return {static_cast<std::uint32_t>((std::min)(b.lower * some / all, upper)), static_cast<std::uint32_t>(upper)};
   }
 
-  /// One agent of 2^shift goes where it is worth most, most of them to rest there. @return how many they are
+  /// Puts one agent in 2^shift into its best slot, most of them to rest there. @return how many
   std::size_t place_some(slot_graph& graph, unsigned shift) {
     instance const& in = graph.problem();
     auto const price = std::as_const(graph).prices();
@@ -180,12 +180,16 @@ private:
         continue;
       }
       ++some;
-      best - second >= margin&& graph.has_ledger(j) ? graph.rest(a, static_cast<slot>(j))
-                                                    : graph.put(a, static_cast<slot>(j));
+      bool const content = best - second >= margin;
+      if (content && graph.has_ledger(j)) {
+        graph.rest(a, static_cast<slot>(j));
+      } else {
+        graph.put(a, static_cast<slot>(j));
+      }
     }
     return some;
   }
-  /// By how much three of four agents prefer one slot to all others: as the smallest sample says.
+  /// The margin by which three of four agents prefer their best slot, in the smallest sample.
   [[nodiscard]] value usual_margin(slot_graph const& graph) {
     instance const& in = graph.problem();
     margins_.clear();
@@ -197,7 +201,7 @@ private:
     if (margins_.empty()) return 0;
     auto const at = margins_.begin() + static_cast<std::ptrdiff_t>(margins_.size() / 4);
     std::nth_element(margins_.begin(), at, margins_.end());
-    return (std::min)(*at, max_reach);  // who has one slot only prefers it beyond any number
+    return (std::min)(*at, max_reach);  // an agent with one slot only prefers it beyond any number
   }
   [[nodiscard]] static constexpr bool chosen(row_index a, unsigned shift) noexcept {
     return mixed(a) <= ~std::uint32_t{0} >> shift;
@@ -210,11 +214,11 @@ private:
 
   row_index homeless_ = membership::nobody;
   std::size_t bids_left_ = 0;
-  buffer<value> bid_;  // the price up to which an agent would stay in its slot, at least
+  buffer<value> bid_;  // an agent stays in its slot at least up to this price
   buffer<row_index> waiting_;
-  buffer<value> fan_;  // to whom a slot is worth most
+  buffer<value> fan_;  // the agent with the greatest utility for a slot
   buffer<slot_bounds> bounds_;
-  unsigned smallest_ = 0;  // the sample of one agent in 2^smallest_ is solved first
+  unsigned smallest_ = 0;  // the sample of one agent in 2^smallest_ comes first
   buffer<value> margins_;
 };
 

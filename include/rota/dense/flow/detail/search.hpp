@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rota/dense/flow/detail/canonical.hpp>
+#include <rota/dense/flow/detail/hasty_fill.hpp>
 #include <rota/dense/flow/detail/opening.hpp>
 #include <rota/dense/flow/detail/slot_graph.hpp>
 #include <rota/dense/flow/solver.hpp>
@@ -31,7 +32,7 @@ public:
       graph_.open_places(agents_);
       out = finish(in, limit, true);
     }
-    if (!out.found()) out = solve(in, limit);  // so that the witness of a refusal does not depend on history either
+    if (!out.found()) out = solve(in, limit);  // so the witness of a refusal does not depend on history either
     out.work.changed_rows = changed.size();
     return out;
   }
@@ -53,7 +54,7 @@ private:
     return finish(in, limit, false);
   }
 
-  /// Puts the agents of changed rows where they are worth most now; false if one of them has no pair.
+  /// Puts the agents of changed rows into their best slots; false if all pairs of one of them are forbidden.
   bool replace(instance const& in, std::span<row_index const> changed) {
     for (auto const a : changed) {
       if (graph_.who().home(a) != no_slot) {
@@ -91,7 +92,8 @@ private:
     return out;
   }
 
-  /// Bounds as the number of agents implies them: what other slots cannot take must come here, what they must have cannot.
+  /// Sets the bounds that the number of agents implies: a slot must take the agents that the others cannot, and cannot take
+  /// those that the others need. @return a refusal if they contradict each other
   std::optional<flow_outcome> tighten(instance const& in) {
     value least = 0;
     value most = 0;
@@ -102,8 +104,8 @@ private:
       auto const [lower, upper] = in.bounds[k];
       value const implied_upper = n - (least - value{lower});
       if (lower > upper || value{lower} > implied_upper) return refused(flow_obstacle::slot_short, k);
-      graph_.set_bounds(k, {static_cast<std::uint32_t>(std::max(value{lower}, n - (most - value{upper}))),
-                            static_cast<std::uint32_t>(std::min(value{upper}, implied_upper))});
+      graph_.set_bounds(k, {static_cast<std::uint32_t>((std::max)(value{lower}, n - (most - value{upper}))),
+                            static_cast<std::uint32_t>((std::min)(value{upper}, implied_upper))});
     }
     return std::nullopt;
   }
@@ -117,7 +119,7 @@ private:
     auto flow = graph_.balance(limit);
     bool const close = graph_.normalise();
     if (flow == slot_graph::flow::interrupted) return hurry(in);
-    if (!close) {  // prices have drifted apart in parts of the graph that hardly meet: once more, so that they cannot
+    if (!close) {  // prices drifted apart in parts of the graph that hardly meet: narrow searches from 0 do not let them
       graph_.reset(in);
       if (auto const out = tighten(in)) return *out;
       for (row_index a = 0; a < in.agents; ++a)
@@ -128,19 +130,26 @@ private:
       graph_.normalise();
       if (flow == slot_graph::flow::interrupted) return hurry(in);
     }
+    if (flow == slot_graph::flow::stuck) {
+      warm_ = true;
+      return explain(graph_.stuck_at());
+    }
+    return optimum(in, warm);
+  }
+  /// @pre the graph is balanced
+  flow_outcome optimum(instance const& in, bool warm) {
     warm_ = true;
-    if (flow == slot_graph::flow::stuck) return explain();
     if (!in.unique) canonical_.make(graph_);
     auto const total = graph_.who().total();
     return placed(status::optimal, total, total, warm);
   }
 
-  /// No time left to balance: anything within the bounds, and how much more the prices leave room for.
+  /// The limit was met: any assignment within the bounds, and by how much the certificate exceeds it.
   flow_outcome hurry(instance const& in) {
     warm_ = false;
-    if (!graph_.fill_anyhow(agents_)) return explain();
+    if (!hasty_fill_.play(graph_, agents_)) return explain(hasty_fill_.stuck_at());
     std::uint64_t gap = 0;
-    auto const add = [&](value amount, std::uint64_t times) {  // at most what 64 bits hold; amounts are not negative
+    auto const add = [&](value amount, std::uint64_t times) {  // saturates; amounts are not negative
       auto const most = (std::numeric_limits<std::uint64_t>::max)();
       auto const x = static_cast<std::uint64_t>(amount);
       gap = x != 0 && times > (most - gap) / x ? most : gap + x * times;
@@ -155,13 +164,14 @@ private:
     for (std::size_t k = 0; k < in.slot_count(); ++k)
       price[k] > 0 ? add(price[k], graph_.bounds(k).upper - graph_.who().count(k))
                    : add(-price[k], graph_.who().count(k) - graph_.bounds(k).lower);
+    if (gap == 0) return optimum(in, false);
     auto const total = graph_.who().total();
-    auto const headroom = static_cast<std::uint64_t>(no_bound - std::max<value>(total, 0));
-    return placed(status::feasible, total, total + static_cast<value>(std::min(gap, headroom)), false);
+    auto const headroom = static_cast<std::uint64_t>(no_bound - (std::max)(total, value{0}));
+    return placed(status::feasible, total, total + static_cast<value>((std::min)(gap, headroom)), false);
   }
 
-  [[nodiscard]] flow_outcome explain() const {
-    auto const stuck = graph_.stuck_at();
+  /// @param stuck a node with an excess that nothing can take
+  [[nodiscard]] flow_outcome explain(std::size_t stuck) const {
     if (stuck == graph_.sink()) {
       std::size_t k = 0;
       while (graph_.room(k) <= 0) ++k;
@@ -175,6 +185,7 @@ private:
   slot_graph graph_;
   opening opening_;
   canonical_choice canonical_;
+  hasty_fill hasty_fill_;
   std::size_t agents_ = 0;  // that take part
   bool warm_ = false;       // the graph is balanced, or was proved to have no balance
 };

@@ -14,22 +14,23 @@
 
 namespace rota::dense::detail {
 
-/// Agents in slots, the price of each slot, and shortest ways to move one agent more from here to there.
+/// Agents in slots, a price for each slot, and shortest ways to move agents from slots that have too many to slots that
+/// lack some.
 ///
-/// The flow agents → slots → sink, contracted to slots and sink. Agent a in slot j can move to k for the reduced cost
-/// p_k − p_j − (u_ak − u_aj). A slot holds `places` (units of flow to the sink), between its bounds; it trades places with
-/// the sink, so that lower bounds are arcs which must carry flow. A slot with more agents than places has an excess, with
-/// fewer a deficit. One search sends agents from all excesses to the nearest deficits at once.
+/// This is the flow agents → slots → sink, contracted to slots and sink. Agent a in slot j moves to k for the reduced cost
+/// p_k − p_j − (u_ak − u_aj). A slot has `places` (units of flow to the sink) between its bounds, and trades places with the
+/// sink: so a lower bound is an arc that must carry flow. A slot with more agents than places has an excess, one with fewer
+/// a deficit. One search sends agents from all excesses to the nearest deficits at once.
 ///
-/// Invariants: no arc has a negative reduced cost: nobody would rather be elsewhere at these prices; a slot that costs more
-/// than the sink has all its places, one that costs less the fewest. Hence, balanced, optimality.
+/// Invariants: no arc has a negative reduced cost, so no agent would gain by moving at these prices; a slot that costs more
+/// than the sink has the most places, one that costs less has the fewest. Once balanced, the assignment is therefore optimal.
 ///
-/// Complexity: a search is O(s²) and what it takes to repair a few entries of `ledgers`; memory O(n + s²).
+/// Complexity: a search is O(s²), and repairs of a few entries of `ledgers`; memory O(n + s²).
 class slot_graph {
 public:
   using value = std::int64_t;
 
-  /// What became of an attempt to balance.
+  /// How an attempt to balance ended.
   enum class flow : unsigned char { balanced, stuck, interrupted };
 
   /// Work done since `reset`.
@@ -39,7 +40,7 @@ public:
     std::uint64_t relaxations = 0;  ///< arcs looked at
   };
 
-  /// Nobody is placed, all prices are 0.
+  /// Begins with no agent placed and all prices 0.
   void reset(instance const& in) {
     in_ = in;
     auto const s = in.slot_count();
@@ -58,7 +59,8 @@ public:
     done_ = {};
   }
 
-  /// The same agents and slots, with some other numbers; false if the slots now ask for other ledgers: then `reset`.
+  /// Takes over changed numbers for the same agents and slots; false if their counts or the slots with ledgers differ: then
+  /// call `reset`.
   [[nodiscard]] bool adopt(instance const& in) {
     if (in.agents != who_.homes().size() || in.slot_count() != slot_count() || !ledgers_.suit(in)) return false;
     in_ = in;
@@ -66,7 +68,7 @@ public:
     return true;
   }
 
-  /// Takes everybody out. Prices stay.
+  /// Takes all agents out. Prices stay.
   void clear() {
     who_.reset(in_.agents, slot_count());
     ledgers_.close();
@@ -83,25 +85,26 @@ public:
   [[nodiscard]] std::span<value const> prices() const noexcept { return price_; }
   [[nodiscard]] work const& done() const noexcept { return done_; }
 
-  /// Begins to keep ledgers, with what members there are. Nothing may be moved by `balance` before. O(n·s)
+  /// Begins to keep ledgers. To be called before `balance`. O(n·s)
   void keep_ledgers() { ledgers_.open(in_, who_); }
   [[nodiscard]] bool has_ledger(std::size_t j) const noexcept { return ledgers_.has(j); }
-  /// From now on agents can `rest` who prefer their slot by `margin` at least, at the present prices. @pre holds nobody
+  /// From now on, agents that prefer their slot by at least `margin` at the present prices can `rest`. @pre all slots are
+  /// empty
   void let_rest(value margin) { ledgers_.let_rest(price_, margin); }
 
-  /// Puts agent a, who is nowhere, into slot j. O(1), or O(s) where j keeps a ledger.
+  /// Puts agent a into slot j. O(1), or O(s) if j keeps a ledger. @pre a is in no slot
   void put(row_index a, slot j) {
     who_.put(a, j, in_.at(a, j));
     ledgers_.write(in_, who_, a);
   }
-  /// Puts agent a into slot j, behind those who do not rest. O(s). @pre j keeps a ledger, and a may rest there
+  /// Puts agent a into slot j to rest there. O(s). @pre a is in no slot, j keeps a ledger, and a may rest there
   void rest(row_index a, slot j) {
     who_.rest(a, j, in_.at(a, j));
     ledgers_.write(in_, who_, a);
   }
   /// Takes agent a out of its slot. O(1).
   void take(row_index a) { who_.take(a); }
-  /// Puts agent a where it is worth most at these prices; false if every pair of it is absent. O(s).
+  /// Puts agent a into its best slot at these prices; false if all its pairs are forbidden. O(s).
   bool place(row_index a) {
     auto const j = static_cast<slot>(kernel::best(in_.row(a), price_.data(), slot_count()));
     if (!in_.present(a, j)) return false;
@@ -109,7 +112,7 @@ public:
     return true;
   }
 
-  /// As many places as prices ask for, where `agents` are placed: the start of balancing. O(s).
+  /// Opens as many places as prices ask for while `agents` are placed; then `balance`. O(s).
   void open_places(std::size_t agents) {
     surplus_ = -static_cast<value>(agents);
     for (std::size_t k = 0; k < slot_count(); ++k) {
@@ -121,7 +124,16 @@ public:
     }
   }
 
-  /// Searches until there is no excess. `wide_searches`: to half as many deficits as there are sources, not to one.
+  /// As many places as members, within the bounds. O(s).
+  void fit_places(std::size_t agents) {
+    surplus_ = -static_cast<value>(agents);
+    for (std::size_t k = 0; k < slot_count(); ++k) {
+      places_[k] = std::clamp(who_.count(k), bounds_[k].lower, bounds_[k].upper);
+      surplus_ += places_[k];
+    }
+  }
+
+  /// Searches until no slot has an excess. A wide search ends at half as many deficits as there are sources, else at one.
   flow balance(work_limit const& limit, bool wide_searches = true) {
     for (;;) {
       if (done_.relaxations >= limit.steps || limit.stop()) return interrupted_unless_balanced();
@@ -129,7 +141,7 @@ public:
       if (!search(wide_searches)) return flow::stuck;
     }
   }
-  /// Prices relative to the sink; false if they have drifted so far that sums might not fit.
+  /// Makes prices relative to the sink; false if they have drifted so far that sums might overflow.
   bool normalise() {
     value const zero = price_[sink()];
     value furthest = 0;
@@ -140,20 +152,20 @@ public:
     return furthest <= 4 * max_reach;
   }
 
-  /// A node with an excess, or the sink if it has one. @pre `balance` was stuck
+  /// A node with an excess. @pre `balance` was stuck
   [[nodiscard]] std::size_t stuck_at() const noexcept { return settled_[0]; }
-  /// Agents that a slot lacks, negative if it has too many; for the sink likewise.
+  /// How many agents node v lacks; negative if it has too many.
   [[nodiscard]] value room(std::size_t v) const noexcept {
     return v == sink() ? -surplus_ : static_cast<value>(places_[v]) - static_cast<value>(who_.count(v));
   }
 
-  /// Whether a place of slot k may be given to the sink, or taken from it.
+  /// Whether slot k may open one place more, or close one.
   [[nodiscard]] bool may_open(std::size_t k) const noexcept { return places_[k] < bounds_[k].upper; }
   [[nodiscard]] bool may_close(std::size_t k) const noexcept { return places_[k] > bounds_[k].lower; }
-  void open_place(std::size_t k) noexcept { ++places_[k]; }
-  void close_place(std::size_t k) noexcept { --places_[k]; }
+  void open_place(std::size_t k) noexcept { ++places_[k], ++surplus_; }
+  void close_place(std::size_t k) noexcept { --places_[k], --surplus_; }
 
-  /// Calls f(k) for each slot k ≠ j to which some member of j may move at no cost (reduced). O(s), repairs aside.
+  /// Calls f(k) for each slot k ≠ j to which a member of j can move at reduced cost 0. O(s), repairs aside.
   template <class F>
   void for_each_tight(std::size_t j, F&& f) {
     auto const visit = [&](value const* gain, value here, auto&& really) {
@@ -175,26 +187,12 @@ public:
     }
   }
 
-  /// Makes counts fit the bounds whatever it costs, by moves of fewest hops; false if that is impossible. After that the
-  /// invariants of prices do not hold. For those who cannot wait for `balance`.
-  bool fill_anyhow(std::size_t agents) {
-    surplus_ = -static_cast<value>(agents);
-    for (std::size_t k = 0; k < slot_count(); ++k) {
-      places_[k] = std::clamp(who_.count(k), bounds_[k].lower, bounds_[k].upper);
-      surplus_ += places_[k];
-    }
-    for (std::size_t v = 0; v <= sink(); ++v)
-      while (room(v) < 0)
-        if (!nearest_by_hops(v)) return false;
-    return true;
-  }
-
 private:
   static constexpr auto nobody = membership::nobody;
-  static constexpr value unreached = value{1} << 60;  // further than any sum of reduced costs
-  static constexpr value closed = value{1} << 61;     // the price at which nothing is offered to a settled node
+  static constexpr value unreached = value{1} << 60;  // greater than any sum of reduced costs
+  static constexpr value closed = value{1} << 61;     // the price of a settled node: no offer reaches it
 
-  // How a node was reached: from which node, by which agent; `nobody` stands for a place, or for whom the ledger names.
+  // How a node was reached: from which node, by which agent. `nobody` is a place, or whom the ledger names.
   static constexpr value link(row_index a, std::size_t from) noexcept {
     return static_cast<value>(std::uint64_t{a} << 32 | from);
   }
@@ -214,7 +212,7 @@ private:
   }
   flow interrupted_unless_balanced() { return find_sources() ? flow::interrupted : flow::balanced; }
 
-  /// Dijkstra on reduced costs from all sources, then one agent along each way found that no other way has used up.
+  /// Dijkstra on reduced costs from all sources; then one agent moves along each way that is still open.
   bool search(bool wide) {
     ++done_.searches;
     std::size_t const enough = wide ? (sources_ + 1) / 2 : 1;
@@ -248,7 +246,7 @@ private:
     return true;
   }
 
-  /// v is final, at distance d; offers its neighbours what lies behind it.
+  /// Makes v final at distance d, and offers its neighbours the ways through it.
   /// @return the nearest node that is not final
   row_entry settle(std::size_t v, value d, std::size_t order) {
     settled_[order] = static_cast<slot>(v);
@@ -281,12 +279,12 @@ private:
     if (distance < label_[k]) label_[k] = distance, via_[k] = way;
   }
 
-  /// Whether the way to k is what it says: its last step may rest on what a ledger remembers.
+  /// Whether the way to k is open as labelled: its last step may be an outdated entry of a ledger.
   [[nodiscard]] bool trustworthy(std::size_t k) const {
     auto const j = from(k);
     return k == sink() || j == sink() || !ledgers_.has(j) || ledgers_.current(in_, who_, j, k);
   }
-  /// Looks again for the way to k.
+  /// Repairs that entry and finds the way to k anew.
   void correct(std::size_t k, std::size_t passed) {
     repair(from(k), k);
     label_[k] = unreached;
@@ -304,7 +302,7 @@ private:
     }
   }
 
-  /// Moves agents along the way to `target`, if nobody on it has moved since it was found. All its arcs are tight.
+  /// Moves agents along the way to `target`, unless one on it has moved since it was found. All its arcs are tight.
   void send(std::size_t target) {
     std::size_t source = target;
     while (via_[source] != no_link) {
@@ -315,14 +313,12 @@ private:
     }
     if (room(source) >= 0) return;
     ++done_.augmentations;
-    if (target == sink()) ++surplus_;
-    if (source == sink()) --surplus_;
     for (std::size_t k = target; k != source;) {
       std::size_t const j = from(k);
       if (k == sink()) {
-        ++places_[j];
+        open_place(j);
       } else if (j == sink()) {
-        --places_[k];
+        close_place(k);
       } else {
         auto const a = by(k);
         take(a);
@@ -330,37 +326,6 @@ private:
       }
       k = j;
     }
-  }
-
-  /// Sends one unit from `source` to a deficit as few hops away as any.
-  bool nearest_by_hops(std::size_t source) {
-    std::fill(via_.begin(), via_.end(), no_link);
-    std::fill(label_.begin(), label_.end(), unreached);
-    label_[source] = 0;
-    settled_[0] = static_cast<slot>(source);
-    for (std::size_t i = 0, end = 1; i < end; ++i) {
-      std::size_t const v = settled_[i];
-      if (room(v) > 0) {
-        send(v);
-        return true;
-      }
-      auto const reach = [&](std::size_t k, value way) {
-        if (label_[k] == 0) return;
-        label_[k] = 0;
-        via_[k] = way;
-        settled_[end++] = static_cast<slot>(k);
-      };
-      if (v == sink()) {
-        for (std::size_t k = 0; k < slot_count(); ++k)
-          if (may_close(k)) reach(k, link(nobody, v));
-        continue;
-      }
-      if (may_open(v)) reach(sink(), link(nobody, v));
-      for (auto a = who_.first(v); a != nobody && end <= slot_count(); a = who_.next(a))
-        for (std::size_t k = 0; k < slot_count(); ++k)
-          if (in_.present(a, k)) reach(k, link(a, v));
-    }
-    return false;
   }
 
   instance in_;
