@@ -185,6 +185,9 @@ TEST(time, durations_are_a_free_group_on_one_generator) {
       EXPECT_EQ((d + e) - e, d);
       EXPECT_EQ(d + -d, rota::duration{});
       EXPECT_EQ(d <=> e, a <=> b);
+      auto sum = d;
+      EXPECT_EQ(sum += e, d + e);
+      EXPECT_EQ(sum -= e, d);
       for (std::int64_t const n : {-2, -1, 0, 1, 2}) {
         EXPECT_EQ(n * d, d * n);
         EXPECT_EQ((n * d).ns, n * a);
@@ -203,6 +206,9 @@ TEST(time, durations_act_on_instants) {
       EXPECT_EQ(t + rota::duration{}, t);
       EXPECT_EQ((t + d) + rota::seconds(1), t + (d + rota::seconds(1)));
       EXPECT_EQ(t + d > t, d > rota::duration{});
+      auto moved = t;
+      EXPECT_EQ(moved += d, t + d);
+      EXPECT_EQ(moved -= d, t);
     }
 }
 

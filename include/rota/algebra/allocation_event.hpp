@@ -10,7 +10,7 @@ namespace rota {
 
 namespace detail {
 
-/// `event` itself, or what `to_sparse` turns into it.
+/// `event`, or a type that `to_sparse` turns into it.
 template <class E>
 concept read_as_event = std::same_as<E, event<typename E::atom_type>> || requires(E const& e) {
   { to_sparse(e) } -> std::same_as<event<typename E::atom_type>>;
@@ -18,11 +18,11 @@ concept read_as_event = std::same_as<E, event<typename E::atom_type>> || require
 
 }  // namespace detail
 
-/// An allocation event of Def. 3, whatever stores it: `event` keeps one sorted run, `dense_event` two bit planes.
+/// An allocation event of Def. 3, in any storage: `event` keeps one sorted sequence, `dense_event` two bit planes.
 ///
-/// Laws: those of `commutative_magma` and, with an identity, `invertible_magma`; e ↦ e·C, `difference` and `applicable` as
-/// for `event`; e is the sign function x ↦ e(x), and so is `to_sparse(e)`. Refuses `delta`, whose multiplicities are no
-/// signs, and atom sets.
+/// Laws: those of `commutative_magma` and, if there is an identity, of `invertible_magma`; those of `apply`,
+/// `difference` and `applicable` as for `event`; e and `to_sparse(e)` are the same sign function x ↦ e(x). Refuses
+/// `delta`, whose multiplicities are not signs, and atom sets.
 template <class E>
 concept allocation_event =
     std::regular<E> && ordered_atom<typename E::atom_type> && std::regular<typename E::set_type> &&
@@ -41,9 +41,9 @@ concept allocation_event =
       { apply(e, c) } -> std::same_as<result<typename E::set_type, inapplicable<typename E::atom_type>>>;
     };
 
-/// A finite set of atoms that allocation events act on, whatever stores it: `atom_set`, `dense_atom_set`.
+/// A finite set of atoms that allocation events act on, in any storage: `atom_set`, `dense_atom_set`.
 ///
-/// Refuses sets that have no `difference`, such as std::set.
+/// Refuses sets without `difference`, such as std::set.
 template <class C>
 concept allocation_set = std::regular<C> && requires(C const& c) {
   { difference(c, c) } -> allocation_event;

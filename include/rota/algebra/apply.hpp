@@ -4,14 +4,14 @@
 
 namespace rota {
 
-/// Refusal: event e does not apply to C, because at this atom χ(C) + e leaves {0, 1}.
+/// Refusal: event e is not applicable at C, because χ(C) + e leaves {0, 1} at this atom.
 template <ordered_atom Atom>
 struct inapplicable {
-  Atom witness{};  ///< added though already in C, or subtracted though not in C
+  Atom witness{};  ///< added although in C, or subtracted although not in C
   friend bool operator==(inapplicable const&, inapplicable const&) = default;
 };
 
-/// diff(C, C′) = (C′ ∖ C, C ∖ C′): the only event that is applicable at C and leads to C′. O(|C| + |C′|).
+/// diff(C, C′) = (C′ ∖ C, C ∖ C′): the only event that is applicable at C and turns it into C′. O(|C| + |C′|).
 ///
 /// Laws: diff(C, C) = {}; diff(C′, C) = inverse(diff(C, C′)); compose(diff(C, C′), diff(C′, C″)) = diff(C, C″).
 template <ordered_atom Atom>
@@ -38,7 +38,7 @@ template <ordered_atom Atom>
                      [&](signed_atom<Atom> const& x) { return c.contains(x.atom) == (x.value == sign::minus); });
 }
 
-/// e·C = (C ∖ e⁻) ∪ e⁺ where e is applicable, otherwise the least offending atom.
+/// e·C = (C ∖ e⁻) ∪ e⁺ if e is applicable at C, else the least atom at which it is not.
 ///
 /// Laws: apply(diff(C, C′), C) = C′; apply({}, C) = C; where both sides exist, f·(e·C) = compose(e, f)·C. O(|e| + |C|).
 template <ordered_atom Atom>

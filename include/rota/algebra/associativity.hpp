@@ -4,7 +4,7 @@
 
 namespace rota {
 
-/// Whether brackets matter at one atom: (s, t, u) ∈ {(+, +, −), (−, −, +), (+, −, −), (−, +, +)}; 4 of the 27 triples.
+/// Whether brackets matter at one atom: 4 of the 27 triples, (s, t, u) ∈ {(+, +, −), (−, −, +), (+, −, −), (−, +, +)}.
 [[nodiscard]] constexpr bool brackets_matter(sign s, sign t, sign u) noexcept {
   return s != sign::zero && t != sign::zero && to_int(u) == -to_int(s) && (t == s || t == u);
 }
@@ -19,7 +19,7 @@ template <ordered_atom Atom>
   return witnesses;
 }
 
-/// (e∘f)∘g = e∘(f∘g), decided by the sign criterion, without composing.
+/// Whether (e∘f)∘g = e∘(f∘g). Decided by the signs, without composing.
 template <ordered_atom Atom>
 [[nodiscard]] constexpr bool associates(event<Atom> const& e, event<Atom> const& f, event<Atom> const& g) {
   return non_associating_atoms(e, f, g).empty();

@@ -12,9 +12,9 @@
 
 namespace rota {
 
-/// What the algebra asks of an atom: a regular value with a total order. It knows no plans.
+/// An atom: any regular value with a total order. The algebra knows no plans.
 ///
-/// Refuses what says itself that its order is partial: floating point, for NaN, and whatever is made of it, such as
+/// Refuses types that declare their order partial: floating point, because of NaN, and types made of it, such as
 /// std::optional<double>.
 template <class T>
 concept ordered_atom = std::regular<T> && std::totally_ordered<T> &&
@@ -31,7 +31,7 @@ public:
   using iterator = const_iterator;
 
   constexpr atom_set() = default;
-  /// The set of the listed atoms, in any order, repetitions counting once. O(n log n).
+  /// The set of the listed atoms, in any order and repeated or not. O(n log n).
   constexpr atom_set(std::initializer_list<Atom> atoms) : atom_set(atoms.begin(), atoms.end()) {}
   template <std::input_iterator I, std::sentinel_for<I> S>
   constexpr atom_set(I first, S last) : atoms_(first, last) {
@@ -66,7 +66,7 @@ public:
   constexpr void clear() noexcept { atoms_.clear(); }
 
   friend bool operator==(atom_set const&, atom_set const&) = default;
-  /// A total order of sets (lexicographic), so that sets can be atoms and keys. It is not inclusion.
+  /// A total order of sets, so that sets can be atoms and keys. It is lexicographic, not inclusion.
   friend auto operator<=>(atom_set const&, atom_set const&) = default;
 
   /// The set of these atoms. @pre strictly ascending
@@ -81,11 +81,11 @@ private:
   small_vector<Atom, 8> atoms_;
 };
 
-/// C ∪ D. O(|C| + |D|), as the three below.
+/// C ∪ D. O(|C| + |D|), like the three below.
 template <ordered_atom Atom>
 [[nodiscard]] constexpr atom_set<Atom> unite(atom_set<Atom> const& c, atom_set<Atom> const& d) {
   small_vector<Atom, 8> atoms;
-  auto x = c.begin();  // std::set_union would need room for |C| + |D|, and where the two are much alike few are left
+  auto x = c.begin();  // not std::set_union, which needs room for |C| + |D|: similar sets leave far fewer
   for (Atom const& y : d) {
     while (x != c.end() && *x < y) atoms.push_back(*x++);
     if (x != c.end() && !(y < *x)) ++x;

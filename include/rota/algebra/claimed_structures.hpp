@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Which structure each type of the algebra has, and claims.
+/// Which structure each type of the algebra claims to have.
 
 #include <rota/algebra/dense_event.hpp>
 #include <rota/algebra/fingerprint.hpp>
@@ -9,15 +9,15 @@
 
 namespace rota {
 
-/// What an allocation event is, whatever stores it. Under Def. 4 a commutative unital magma with inverses; not associative,
-/// hence no group. And how it acts on sets, where it is applicable.
+/// The structure of allocation events in any storage: under Def. 4 a commutative unital magma with inverses, not
+/// associative, hence not a group; and how an event acts on the sets at which it is applicable.
 ///
-/// A type of your own that is an `allocation_event` opts in by deriving its structure from this one.
+/// If a type of your own is an `allocation_event`, derive its `structure` from this one.
 template <allocation_event E>
 struct event_structure {
   using set_type = typename E::set_type;
 
-  // The library's functions, or those beside a type of your own.
+  // Calls the library's functions, or those that stand beside a type of your own.
   static constexpr E combine(E const& e, E const& f) { return compose(e, f); }
   static constexpr E identity() { return {}; }
   static constexpr E inverse(E const& e) {
@@ -43,7 +43,7 @@ struct event_structure {
 template <ordered_atom Atom>
 struct structure<event<Atom>> : event_structure<event<Atom>> {};
 
-/// Where the type determines the universe. Else composition is partial and the type no magma: events of two universes do not
+/// Only if the type determines the universe. Otherwise the type is not a magma, because events of two universes do not
 /// compose.
 template <fixed_universe U>
 struct structure<dense_event<U>> : event_structure<dense_event<U>> {};
@@ -80,7 +80,7 @@ struct structure<transition<Set>> {
   static constexpr type inverse(type const& t) { return rota::inverse(t); }
 };
 
-/// Deltas move fingerprints: δ·a = h(δ) + a. That is how a fingerprint is kept up to date without its allocation.
+/// Deltas act on fingerprints: δ·a = h(δ) + a. So a fingerprint is kept up to date without its allocation.
 template <encodable_atom Atom, std::signed_integral Coefficient>
 struct action<delta<Atom, Coefficient>, fingerprint> {
   static constexpr fingerprint act(delta<Atom, Coefficient> const& d, fingerprint a) { return fingerprint_of(d) + a; }

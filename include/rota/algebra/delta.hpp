@@ -10,14 +10,14 @@
 
 namespace rota {
 
-/// Refusal: the multiplicity of this atom would leave the range of the coefficient type. Nothing saturates.
+/// Refusal: the multiplicity of this atom would leave the range of the coefficient type. It is never clamped to it.
 template <ordered_atom Atom>
 struct coefficient_overflow {
   Atom witness{};
   friend bool operator==(coefficient_overflow const&, coefficient_overflow const&) = default;
 };
 
-/// One entry of a delta; the stored multiplicity is never zero.
+/// One entry of a delta. The stored multiplicity is never zero.
 template <ordered_atom Atom, class Coefficient>
 struct multiple {
   Atom atom{};
@@ -26,24 +26,23 @@ struct multiple {
   friend auto operator<=>(multiple const&, multiple const&) = default;
 };
 
-/// What stands for ℤ: signed integers, or an exact big integer, which has numbers, an order, sums and products.
+/// A type that represents ℤ: a signed integer, or an exact big integer with an order, sums and products.
 ///
-/// Refuses unsigned types, which hold no −1, so that ι would wrap; floating point, whose sums depend on the brackets; text,
-/// pointers and enumerations, which do not multiply; and integers that are bounded and no C++ integers, such as __int128
-/// in strict mode, whose overflow nobody could check.
+/// Refuses unsigned types, which have no −1, so ι would wrap; floating point, whose sums depend on the brackets; text,
+/// pointers and enumerations, which do not multiply; and bounded integers that are not C++ integers, such as __int128
+/// in strict mode, because their overflow cannot be checked.
 template <class T>
 concept integer_coefficient =
     std::regular<T> && std::totally_ordered<T> && !std::unsigned_integral<T> && !std::floating_point<T> &&
     (std::signed_integral<T> || std::is_class_v<T>) && requires(T const& a, T const& b) {
       T{-1};
       { a + b } -> std::convertible_to<T>;
-      { a* b } -> std::convertible_to<T>;
+      requires std::convertible_to<decltype(a * b), T>;
     };
 
-/// An integer n by which deltas are multiplied. The products must fit the coefficient type, n itself need not: it is never
-/// cut to size.
+/// An integer n by which deltas are multiplied. It is never narrowed to the coefficient type; only the products must fit.
 ///
-/// Refuses floating point, which would lose its fraction.
+/// Refuses floating point, whose fraction would be lost.
 template <class N, class Coefficient>
 concept integer_multiplier =
     integer_coefficient<Coefficient> && !std::floating_point<N> && !std::same_as<N, bool> &&
@@ -51,7 +50,7 @@ concept integer_multiplier =
 
 namespace detail {
 
-/// out = a + b; false where that leaves the type. Types that are no C++ integers are exact and hold everything.
+/// out = a + b; returns false if that is out of range. Types that are not C++ integers are exact and have no range.
 template <integer_coefficient T>
 constexpr bool add(T const& a, T const& b, T& out) {
   if constexpr (std::integral<T>) {
@@ -86,13 +85,13 @@ constexpr bool multiply(N const& n, T const& b, T& out) {
 
 /// A finitely supported function Atoms → ℤ: an element of the free abelian group ℤ^(Atoms).
 ///
-/// This is the abelian group of allocation events; the paper's events (Def. 3) are its elements with values in {−1, 0, +1},
-/// and the paper's composition (Def. 4) is its sum, clamped. Class invariant: entries strictly ascending by atom, no count
-/// zero.
+/// This is the abelian group of allocation events. The paper's events (Def. 3) are its elements with values in
+/// {−1, 0, +1}, and the paper's composition (Def. 4) is its sum, clamped to them. Class invariant: entries strictly
+/// ascending by atom, no count zero.
 ///
-/// Laws: abelian group under `+` with identity `{}`; ℤ-module under `*`. @pre of `+`, `−`, `*`: no coefficient of the result
-/// overflows; `checked_sum`, `checked_difference`, `checked_negation` and `checked_product` refuse instead. Sums take
-/// O(|d| + |e|), and no allocation where that is at most eight.
+/// Laws: abelian group under `+` with identity `{}`; ℤ-module under `*`. @pre of `+`, `−`, `*`: no coefficient of the
+/// result overflows; `checked_sum`, `checked_difference`, `checked_negation` and `checked_product` refuse instead.
+/// Sums take O(|d| + |e|), and allocate only if |d| + |e| > 8.
 template <ordered_atom Atom, integer_coefficient Coefficient = std::int64_t>
 class delta {
 public:
@@ -113,7 +112,7 @@ public:
     entries_.reserve(c.size());
     for (auto const& x : c) entries_.push_back({x, Coefficient{1}});
   }
-  /// ι or χ of an event or a set that is stored otherwise: of what `to_sparse` says that it is.
+  /// ι of an event, or χ of a set, in another storage: converted with `to_sparse` first.
   template <class X>
     requires requires(X const& x) { delta(to_sparse(x)); }
   constexpr explicit delta(X const& x) : delta(to_sparse(x)) {}
@@ -185,7 +184,7 @@ delta(X) -> delta<typename X::atom_type>;
 
 namespace detail {
 
-/// x ↦ combine(d(x), e(x)), where `combine(n, 0)` is n; or the least atom at which it overflows.
+/// x ↦ combine(d(x), e(x)), or the least atom at which it overflows. @pre `combine(n, 0)` is n
 template <ordered_atom Atom, integer_coefficient T, class F>
 constexpr result<delta<Atom, T>, coefficient_overflow<Atom>> merge(delta<Atom, T> const& d, delta<Atom, T> const& e,
                                                                    F combine) {
@@ -212,13 +211,13 @@ template <ordered_atom Atom, integer_coefficient T>
                                                                                        delta<Atom, T> const& e) {
   return detail::merge(d, e, detail::add<T>);
 }
-/// d − e, likewise: refused only where d(x) − e(x) overflows, whatever −e(x) does.
+/// d − e, likewise. Refused only if d(x) − e(x) overflows; whether −e(x) does is irrelevant.
 template <ordered_atom Atom, integer_coefficient T>
 [[nodiscard]] constexpr result<delta<Atom, T>, coefficient_overflow<Atom>> checked_difference(delta<Atom, T> const& d,
                                                                                               delta<Atom, T> const& e) {
   return detail::merge(d, e, detail::subtract<T>);
 }
-/// −d, likewise: the least number of a bounded type has no opposite. O(|d|).
+/// −d, likewise: the least number of a bounded type cannot be negated. O(|d|).
 template <ordered_atom Atom, integer_coefficient T>
 [[nodiscard]] constexpr result<delta<Atom, T>, coefficient_overflow<Atom>> checked_negation(delta<Atom, T> const& d) {
   return checked_difference({}, d);
@@ -237,7 +236,8 @@ template <ordered_atom Atom, integer_coefficient T, integer_multiplier<T> N>
   return delta<Atom, T>::from_entries(std::move(entries));
 }
 
-/// ρ : delta → event, the clamp into [−1, +1]. ρ(ι(e)) = e and compose(e, f) = ρ(ι(e) + ι(f)); no homomorphism. O(|d|).
+/// ρ : delta → event, the clamp into [−1, +1]. ρ(ι(e)) = e and compose(e, f) = ρ(ι(e) + ι(f)). Not a homomorphism.
+/// O(|d|).
 template <ordered_atom Atom, integer_coefficient Coefficient>
 [[nodiscard]] constexpr event<Atom> clamp(delta<Atom, Coefficient> const& d) {
   small_vector<signed_atom<Atom>, 8> entries;

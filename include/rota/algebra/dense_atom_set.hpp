@@ -10,10 +10,11 @@
 
 namespace rota {
 
-/// A set of atoms of a finite universe, one bit an atom: `atom_set` where the universe is small or the sets are large.
+/// A set of atoms of a finite universe, one bit per atom. Use it instead of `atom_set` if the universe is small or the
+/// sets are large.
 ///
-/// Over a universe of up to 64 atoms that its type determines this is one word. Every operation takes O(|U| / 64).
-/// Operations of two sets: @pre both are over the same universe.
+/// If the type determines the universe, up to 64 atoms take one word. Every operation takes O(|U| / 64).
+/// Operations on two sets: @pre both are over the same universe.
 template <atom_universe U>
 class dense_atom_set {
 public:
@@ -21,7 +22,7 @@ public:
   using universe_type = U;
   using planes = detail::bit_planes<U, 1>;
 
-  /// ∅. Where the type does not determine the universe, over the empty one.
+  /// ∅, over the empty universe if the type does not determine one.
   constexpr dense_atom_set() = default;
   /// ∅ over this universe.
   constexpr explicit dense_atom_set(U const& universe) : bits_(universe) {}
@@ -36,12 +37,12 @@ public:
     return {bits_.plane(0), bits_.words()};
   }
 
-  /// x ∈ C; false outside the universe. O(1) beside `index_of`, as the two below.
+  /// x ∈ C; false outside the universe. O(1) and one `index_of`, like the two below.
   [[nodiscard]] constexpr bool contains(atom_type const& x) const {
     auto const i = universe().index_of(x);
     return i.has_value() && bits_.test(0, *i);
   }
-  /// C ← C ∪ {x}; whether x was new. Refused where x is outside the universe.
+  /// C ← C ∪ {x}; whether x was new. Refused if x is outside the universe.
   constexpr result<bool, outside_universe<atom_type>> insert(atom_type const& x) { return put(x, true); }
   /// C ← C ∖ {x}; whether x was there.
   constexpr bool erase(atom_type const& x) {
@@ -51,7 +52,7 @@ public:
 
   friend bool operator==(dense_atom_set const&, dense_atom_set const&) = default;
 
-  /// The set whose word i is `word_at(i)`. @pre no bit beyond the universe
+  /// The set whose word i is `word_at(i)`. @pre no word has a bit beyond the universe
   template <std::invocable<std::size_t> F>
   [[nodiscard]] static constexpr dense_atom_set from_words(U const& universe, F&& word_at) {
     auto const words_at = [&](std::size_t i) { return std::array{word_at(i)}; };
@@ -61,7 +62,7 @@ public:
   }
 
 private:
-  // Made in place, as `dense_event`.
+  // Constructed in place, like `dense_event`.
   template <std::invocable<std::size_t> F>
   constexpr dense_atom_set(U const& universe, F& words_at) : bits_(universe, words_at) {}
   constexpr result<bool, outside_universe<atom_type>> put(atom_type const& x, bool value) {
@@ -85,7 +86,7 @@ to_dense(atom_set<typename U::atom_type> const& c, U const& universe) {
   return r;
 }
 
-/// The same set, sparse. O(|C| + |U| / 64).
+/// The same set as an `atom_set`. O(|C| + |U| / 64).
 template <atom_universe U>
 [[nodiscard]] constexpr atom_set<typename U::atom_type> to_sparse(dense_atom_set<U> const& c) {
   small_vector<typename U::atom_type, 8> atoms;

@@ -13,12 +13,12 @@ namespace rota {
 
 /// An allocation event of Def. 3 over a finite universe, in two bit planes: e⁺ and e⁻.
 ///
-/// The same as `event`, stored otherwise: same laws, same results. Class invariant: no bit is in both planes. Over a
-/// universe of up to 64 atoms that its type determines this is two words, and `compose` six bit operations; a universe of
-/// run-time size keeps up to 256 atoms inside the object, more in one allocation. Every operation takes O(|U| / 64).
+/// It has the same laws and results as `event`, in another storage. Class invariant: no bit is in both planes. If the
+/// type determines the universe, up to 64 atoms take two words, and `compose` six bit operations. If the universe is
+/// known only at run time, up to 256 atoms live inside the object, more in one allocation. Operations take O(|U| / 64).
 ///
 /// Laws under `compose` (Def. 4): closed, identity, unique inverses, commutative; not associative, not cancellative.
-/// Operations of two events, or of an event and a set: @pre both are over the same universe.
+/// Operations on two events, or on an event and a set: @pre both are over the same universe.
 template <atom_universe U>
 class dense_event {
 public:
@@ -27,12 +27,12 @@ public:
   using set_type = dense_atom_set<U>;
   using planes = detail::bit_planes<U, 2>;
 
-  /// The identity (∅, ∅). Where the type does not determine the universe, over the empty one.
+  /// The identity (∅, ∅), over the empty universe if the type does not determine one.
   constexpr dense_event() = default;
   /// (∅, ∅) over this universe.
   constexpr explicit dense_event(U const& universe) : bits_(universe) {}
 
-  /// (ϑ⁺, ϑ⁻), or the least atom that stands in both.
+  /// (ϑ⁺, ϑ⁻), or the least atom that is in both.
   [[nodiscard]] static constexpr result<dense_event, overlap<atom_type>> make(set_type const& additions,
                                                                               set_type const& subtractions) {
     ROTA_ASSERT(additions.universe() == subtractions.universe());
@@ -42,12 +42,12 @@ public:
     if (both < 64 * p.size()) return refused{overlap<atom_type>{additions.universe().atom_at(both)}};
     return from_words(additions.universe(), [&](std::size_t i) { return std::array{p[i], m[i]}; });
   }
-  /// ({x}, ∅), or x where it is outside the universe.
+  /// ({x}, ∅), or x if it is outside the universe.
   [[nodiscard]] static constexpr result<dense_event, outside_universe<atom_type>> addition(atom_type const& x,
                                                                                            U const& universe = {}) {
     return single(x, sign::plus, universe);
   }
-  /// (∅, {x}), or x where it is outside the universe.
+  /// (∅, {x}), or x if it is outside the universe.
   [[nodiscard]] static constexpr result<dense_event, outside_universe<atom_type>> subtraction(atom_type const& x,
                                                                                               U const& universe = {}) {
     return single(x, sign::minus, universe);
@@ -60,7 +60,7 @@ public:
   }
   [[nodiscard]] constexpr bool empty() const noexcept { return detail::all_zero(bits_.plane(0), 2 * bits_.words()); }
 
-  /// e(x); zero outside the universe. O(1) beside `index_of`.
+  /// e(x); zero outside the universe. O(1) and one `index_of`.
   [[nodiscard]] constexpr sign operator()(atom_type const& x) const {
     auto const i = universe().index_of(x);
     if (!i) return sign::zero;
@@ -81,7 +81,7 @@ public:
 
   friend bool operator==(dense_event const&, dense_event const&) = default;
 
-  /// The event whose words number i are `words_at(i)`, {of ϑ⁺, of ϑ⁻}. @pre disjoint, no bit beyond the universe
+  /// The event whose words i are `words_at(i)`: {of ϑ⁺, of ϑ⁻}. @pre disjoint, no bit beyond the universe
   template <std::invocable<std::size_t> F>
   [[nodiscard]] static constexpr dense_event from_words(U const& universe, F&& words_at) {
     dense_event e(universe, words_at);
@@ -91,7 +91,7 @@ public:
   }
 
 private:
-  // Made in place: large planes of a fixed universe would be copied, not moved.
+  // Constructed in place: the planes of a fixed universe may be large, and moving copies them.
   template <std::invocable<std::size_t> F>
   constexpr dense_event(U const& universe, F& words_at) : bits_(universe, words_at) {}
   static constexpr result<dense_event, outside_universe<atom_type>> single(atom_type const& x, sign s,
@@ -121,7 +121,7 @@ to_dense(event<typename U::atom_type> const& e, U const& universe) {
       universe, [p = plus.words().data(), m = minus.words().data()](std::size_t i) { return std::array{p[i], m[i]}; });
 }
 
-/// The same event, sparse. O(|e| + |U| / 64).
+/// The same event as an `event`. O(|e| + |U| / 64).
 template <atom_universe U>
 [[nodiscard]] constexpr event<typename U::atom_type> to_sparse(dense_event<U> const& e) {
   small_vector<signed_atom<typename U::atom_type>, 8> entries;
@@ -141,8 +141,8 @@ template <atom_universe U>
   ROTA_ASSERT(e.universe() == f.universe());
   auto const composed = [e_plus = e.plus().data(), e_minus = e.minus().data(), f_plus = f.plus().data(),
                          f_minus = f.minus().data()](std::size_t i) {
-    // Shorter than the definition, and the same, because neither event has a bit in both planes. No complement: of two g++ 12
-    // for AVX-512 makes a chain from one composition to the next.
+    // Equal to the definition, and shorter, because neither event has a bit in both planes. There is no complement: for
+    // AVX-512, g++ 12 turns two of them into a chain from one composition to the next.
     auto const added = e_plus[i] | f_plus[i];
     auto const subtracted = e_minus[i] | f_minus[i];
     auto const cancelled = added & subtracted;
@@ -151,7 +151,7 @@ template <atom_universe U>
   return dense_event<U>::from_words(e.universe(), composed);
 }
 
-/// The atoms at which (e∘f)∘g and e∘(f∘g) differ: e and g have opposite signs, and f has any.
+/// The atoms at which (e∘f)∘g and e∘(f∘g) differ: e and g have opposite signs there, and f has one.
 template <atom_universe U>
 [[nodiscard]] constexpr dense_atom_set<U> non_associating_atoms(dense_event<U> const& e, dense_event<U> const& f,
                                                                 dense_event<U> const& g) {
@@ -161,7 +161,7 @@ template <atom_universe U>
     return opposite & (f.plus()[i] | f.minus()[i]);
   });
 }
-/// (e∘f)∘g = e∘(f∘g), decided by the sign criterion, without composing.
+/// Whether (e∘f)∘g = e∘(f∘g). Decided by the signs, without composing.
 template <atom_universe U>
 [[nodiscard]] constexpr bool associates(dense_event<U> const& e, dense_event<U> const& f, dense_event<U> const& g) {
   return non_associating_atoms(e, f, g).empty();
@@ -174,7 +174,7 @@ template <atom_universe U>
       e.universe(), [p = e.plus().data(), m = e.minus().data()](std::size_t i) { return std::array{m[i], p[i]}; });
 }
 
-/// diff(C, C′) = (C′ ∖ C, C ∖ C′): the only event that is applicable at C and leads to C′.
+/// diff(C, C′) = (C′ ∖ C, C ∖ C′): the only event that is applicable at C and turns it into C′.
 template <atom_universe U>
 [[nodiscard]] constexpr dense_event<U> difference(dense_atom_set<U> const& before, dense_atom_set<U> const& after) {
   ROTA_ASSERT(before.universe() == after.universe());
@@ -186,7 +186,7 @@ template <atom_universe U>
 
 namespace detail {
 
-/// The index of the least atom at which e is not applicable at c, or 64 for each word where there is none.
+/// The index of the least atom at which e is not applicable at c, or 64 times the number of words if there is none.
 template <atom_universe U>
 constexpr std::size_t least_offence(dense_event<U> const& e, dense_atom_set<U> const& c) {
   ROTA_ASSERT(e.universe() == c.universe());
@@ -202,7 +202,7 @@ template <atom_universe U>
   return detail::least_offence(e, c) == 64 * c.words().size();
 }
 
-/// e·C = (C ∖ e⁻) ∪ e⁺ where e is applicable, otherwise the least offending atom.
+/// e·C = (C ∖ e⁻) ∪ e⁺ if e is applicable at C, else the least atom at which it is not.
 template <atom_universe U>
 [[nodiscard]] constexpr result<dense_atom_set<U>, inapplicable<typename U::atom_type>>
 apply(dense_event<U> const& e, dense_atom_set<U> const& c) {

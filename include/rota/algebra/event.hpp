@@ -21,7 +21,7 @@ enum class sign : std::int8_t { minus = -1, zero = 0, plus = 1 };
 /// clamp(s + t) into [−1, +1]: Def. 4 at one atom. Commutative, with identity and unique inverses; not associative.
 [[nodiscard]] constexpr sign clamped_sum(sign s, sign t) noexcept { return clamp_to_sign(to_int(s) + to_int(t)); }
 
-/// One entry of an event. The sign of a stored entry is never zero.
+/// One entry of an event. The stored sign is never zero.
 template <ordered_atom Atom>
 struct signed_atom {
   Atom atom{};
@@ -30,7 +30,7 @@ struct signed_atom {
   friend auto operator<=>(signed_atom const&, signed_atom const&) = default;
 };
 
-/// Refusal: one atom is both added and subtracted, so the two sets are no event (Def. 3).
+/// Refusal: this atom is both added and subtracted, so the two sets are not an event (Def. 3).
 template <ordered_atom Atom>
 struct overlap {
   Atom witness{};
@@ -46,11 +46,11 @@ template <ordered_atom Atom>
 
 /// An allocation event e = (ϑ⁺, ϑ⁻) of Def. 3: a finitely supported sign function Atoms → {−1, 0, +1}.
 ///
-/// Class invariant: entries strictly ascending by atom, no sign zero; hence ϑ⁺ ∩ ϑ⁻ = ∅. Up to eight entries live inside
-/// the object.
+/// Class invariant: entries strictly ascending by atom, no sign zero; hence ϑ⁺ ∩ ϑ⁻ = ∅. Up to eight entries are stored
+/// inside the object.
 ///
 /// Laws under `compose` (Def. 4): closed; `{}` is the identity; `inverse(e)` is the only f with compose(e, f) = {};
-/// commutative. Not associative and not cancellative, since e∘e = e: this is no group. `delta` is.
+/// commutative. Not associative and not cancellative, since e∘e = e. So events are not a group; `delta` is one.
 template <ordered_atom Atom>
 class event {
 public:
@@ -61,7 +61,7 @@ public:
   /// The identity (∅, ∅).
   constexpr event() = default;
 
-  /// (ϑ⁺, ϑ⁻), or the least atom that stands in both. O(|ϑ⁺| + |ϑ⁻|).
+  /// (ϑ⁺, ϑ⁻), or the least atom that is in both. O(|ϑ⁺| + |ϑ⁻|).
   [[nodiscard]] static constexpr result<event, overlap<Atom>> make(atom_set<Atom> const& additions,
                                                                    atom_set<Atom> const& subtractions) {
     event e;
@@ -134,8 +134,8 @@ private:
   small_vector<entry, 8> entries_;
 };
 
-/// e ∘ f of Def. 4, to the letter: at each atom the clamped sum. Brackets matter, so this is no operator. O(|e| + |f|), and
-/// no allocation where that is at most eight, whatever cancels.
+/// e ∘ f of Def. 4, to the letter: at each atom the clamped sum. Not an operator, because brackets matter.
+/// O(|e| + |f|). Allocates only if |e| + |f| > 8.
 template <ordered_atom Atom>
 [[nodiscard]] constexpr event<Atom> compose(event<Atom> const& e, event<Atom> const& f) {
   event<Atom> r;

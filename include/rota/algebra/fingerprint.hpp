@@ -11,7 +11,7 @@
 
 namespace rota {
 
-/// An element of ℤ/2⁶⁴, written additively; the value of the homomorphism h below.
+/// An element of ℤ/2⁶⁴, written additively: the value of `fingerprint_of`.
 struct fingerprint {
   std::uint64_t value = 0;
 
@@ -35,14 +35,14 @@ namespace detail {
 
 }  // namespace detail
 
-/// Feeds a name or number, word by word, into the code of an atom. Specialise for identifiers that are neither
-/// enumerations, integers, nor `strong_id`s of those: `static constexpr void feed(T const&, Sink& sink)`, where
-/// `sink(std::uint64_t)` takes a word. No value's words may begin another's, so that words of several names in a row still
-/// determine each: for names of any length, say, the length first.
+/// Turns a name or number into words, from which the code of an atom is made. Enumerations, integers and `strong_id`s
+/// of these have one. For other identifiers, specialise it with `static constexpr void feed(T const&, auto&& sink)`,
+/// which calls `sink(std::uint64_t)` for each word. The words of one value must not begin the words of another, so that
+/// the words of several names in a row still tell the names apart: if the length varies, feed it first.
 template <class T>
 struct atom_encoding;
 
-/// A name, number or atom with an encoding into words.
+/// A name, number or atom that has an `atom_encoding`.
 template <class T>
 concept encodable = requires(T const& x, void (*sink)(std::uint64_t)) { atom_encoding<T>::feed(x, sink); };
 
@@ -65,11 +65,11 @@ struct atom_encoding<in<V>> {
   }
 };
 
-/// An atom with an encoding into words.
+/// An atom that has an `atom_encoding`.
 template <class T>
 concept encodable_atom = ordered_atom<T> && encodable<T>;
 
-/// r(x) ≠ 0, a fixed mix of the encoding of x: the code of a generator.
+/// r(x), the code of the atom x: a fixed mix of its words, never 0.
 template <encodable_atom Atom>
 [[nodiscard]] constexpr fingerprint code(Atom const& x) {
   std::uint64_t r = 0x9e3779b97f4a7c15u;
@@ -78,32 +78,32 @@ template <encodable_atom Atom>
   return {r != 0 ? r : 1};
 }
 
-/// h(δ) = Σ δ(x)·r(x), a homomorphism delta → ℤ/2⁶⁴: h(δ + ε) = h(δ) + h(ε), in any order, hence incremental.
+/// h(δ) = Σ δ(x)·r(x), a homomorphism delta → ℤ/2⁶⁴: h(δ + ε) = h(δ) + h(ε). So events update it, in any order.
 ///
-/// 8 bytes that tell allocations apart: were r uniform and independent, two unequal allocations would meet with
-/// probability 2⁻⁶⁴ per comparison; a delta all of whose coefficients are multiples of 2^v vanishes with 2^(v−64). r is
-/// fixed and public, so this is a heuristic and no defence against an adversary. O(|δ|).
+/// Eight bytes that tell allocations apart. If r were uniform and independent, two unequal allocations would have one
+/// fingerprint with probability 2⁻⁶⁴, and a delta whose coefficients are all multiples of 2^v the fingerprint 0 with
+/// probability 2^(v−64). But r is fixed and public, so this is a heuristic and no defence against an adversary. O(|δ|).
 template <encodable_atom Atom, std::signed_integral Coefficient>
 [[nodiscard]] constexpr fingerprint fingerprint_of(delta<Atom, Coefficient> const& d) {
   fingerprint h;
   for (auto const& x : d) h = h + static_cast<std::int64_t>(x.count) * code(x.atom);
   return h;
 }
-/// h(ι(e)). O(|e|), no allocation.
+/// h(ι(e)). O(|e|); allocates nothing.
 template <encodable_atom Atom>
 [[nodiscard]] constexpr fingerprint fingerprint_of(event<Atom> const& e) {
   fingerprint h;
   for (auto const& x : e) h = x.value == sign::plus ? h + code(x.atom) : h - code(x.atom);
   return h;
 }
-/// h(χ(C)). Law: h(e·C) = h(C) + h(e) wherever e is applicable at C. O(|C|), no allocation.
+/// h(χ(C)). Law: h(e·C) = h(C) + h(e) if e is applicable at C. O(|C|); allocates nothing.
 template <encodable_atom Atom>
 [[nodiscard]] constexpr fingerprint fingerprint_of(atom_set<Atom> const& c) {
   fingerprint h;
   for (auto const& x : c) h = h + code(x);
   return h;
 }
-/// The same of an event or a set that is stored otherwise.
+/// The same for an event or a set in another storage.
 template <class X>
   requires requires(X const& x) { fingerprint_of(to_sparse(x)); }
 [[nodiscard]] constexpr fingerprint fingerprint_of(X const& x) {

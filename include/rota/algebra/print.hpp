@@ -1,9 +1,9 @@
 #pragma once
 /// @file
-/// Text for the values of the algebra, in the notation of the paper. A header of its own, since computing needs no strings.
+/// Text for the values of the algebra, in the paper's notation. A header of its own, since computing needs no strings.
 ///
-/// Each function takes `name(id)`, which turns agents, plans and tasks into strings; see `default_names`. Atoms that are
-/// not made of names are printed by their own `to_string`, or as numbers or text.
+/// Each function takes `name(id)`, which turns agents, plans and tasks into strings; see `default_names`. Atoms that
+/// are not made of names are printed by their own `to_string`, or as numbers or text.
 
 #include <rota/algebra/delta.hpp>
 #include <rota/algebra/dense_event.hpp>

@@ -10,8 +10,8 @@
 
 namespace rota {
 
-/// Refusal: at this atom two events of a sequence have the same sign and none between them mentions it, so the sequence
-/// is applicable from no set.
+/// Refusal: two events of a sequence have the same sign at this atom, and no event between them mentions it. So there
+/// is no set from which the sequence is applicable.
 template <ordered_atom Atom>
 struct no_run {
   Atom witness{};
@@ -20,11 +20,11 @@ struct no_run {
   friend bool operator==(no_run const&, no_run const&) = default;
 };
 
-/// e₁∘…∘eₙ in any brackets, for a run: events that are consecutively applicable from some set; else where they are not.
+/// e₁∘…∘eₙ for a run, that is, for events of which each is applicable where the ones before it lead; else the refusal.
 ///
-/// The paper's use of composition, and the condition that makes it sound: at each atom the nonzero signs alternate. Then
-/// every bracketing of Def. 4 is this event, it is the sum of the ι(eᵢ), and it is applicable wherever the run is.
-/// The order of the events matters. O(N log N) for N entries in all.
+/// This is how the paper uses composition, with the condition that makes it sound: at each atom, the nonzero signs
+/// alternate. Then every bracketing of Def. 4 gives this event, it is the sum of the ι(eᵢ), and it is applicable
+/// wherever the run is. The order of the events matters. O(N log N) for N entries in all.
 template <ordered_atom Atom>
 [[nodiscard]] constexpr result<event<Atom>, no_run<Atom>> compose_run(std::span<event<Atom> const> events) {
   struct mention {
@@ -47,7 +47,7 @@ template <ordered_atom Atom>
   return event<Atom>::from_entries(std::move(entries));
 }
 
-/// The same of events that are stored otherwise; of no events, the identity of the empty universe.
+/// The same for events in another storage. Of no events: the identity, over the empty universe.
 template <allocation_event E>
 [[nodiscard]] constexpr result<E, no_run<typename E::atom_type>> compose_run(std::span<E const> events) {
   using sparse = event<typename E::atom_type>;
@@ -59,7 +59,8 @@ template <allocation_event E>
   return composed;
 }
 
-/// δ₁ + … + δₙ. Any order and any brackets give the same, if each arrives exactly once. @pre no partial sum overflows.
+/// δ₁ + … + δₙ. Any order and any brackets give the same sum, if each delta is added exactly once. @pre no partial sum
+/// overflows.
 /// O(N log n) for N entries in n deltas.
 template <ordered_atom Atom, integer_coefficient Coefficient>
 [[nodiscard]] constexpr delta<Atom, Coefficient> sum(std::span<delta<Atom, Coefficient> const> deltas) {

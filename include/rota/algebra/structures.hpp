@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The algebraic structures, from the weakest up. Each says its laws, which no compiler can check and `rota/testing/` can,
-/// and which neighbour it refuses.
+/// The algebraic structures, from the weakest up. Each says its laws, which no compiler can check and `rota/testing/`
+/// can, and which neighbour it refuses.
 ///
 ///     magma ── commutative_magma ─────────────────────────┐
 ///       └── unital_magma ── monoid ───────────┬── group ──┴── abelian_group
@@ -49,8 +49,8 @@ concept commutative_magma = magma<T> && detail::claims_commutative<T>;
 
 /// A magma with a two-sided identity.
 ///
-/// Laws: those of `magma`, and identity·x = x = x·identity. Refuses the maximum of two integers, since there is no least
-/// integer to start from.
+/// Laws: those of `magma`, and identity·x = x = x·identity. Refuses the maximum of two integers, since there is no
+/// least integer to start from.
 template <class T>
 concept unital_magma = magma<T> && requires {
   { structure<T>::identity() } -> std::same_as<T>;
@@ -58,8 +58,8 @@ concept unital_magma = magma<T> && requires {
 
 /// A unital magma in which every x has an inverse. With commutativity, this is what `event` is under Def. 4.
 ///
-/// Laws: those of `unital_magma`, x·inverse(x) = identity = inverse(x)·x, inverse(inverse(x)) = x. Without associativity an
-/// inverse cancels nothing: (x·x)·inverse(x) may differ from x.
+/// Laws: those of `unital_magma`, x·inverse(x) = identity = inverse(x)·x, inverse(inverse(x)) = x. Without
+/// associativity an inverse cancels nothing: (x·x)·inverse(x) may differ from x.
 /// Refuses sets under union, which have an identity and no way back.
 template <class T>
 concept invertible_magma = unital_magma<T> && requires(T const& x) {
@@ -89,7 +89,8 @@ concept abelian_group = group<T> && commutative_magma<T>;
 ///
 /// Its `structure<T>` has `source(t)`, `target(t)`, `identity(object)`, `compose(t, u)` for target(t) = source(u), and
 /// `inverse(t)`.
-/// Laws: source and target of a composite; identities; (t·u)·v = t·(u·v) where defined; t·inverse(t) = identity(source(t)).
+/// Laws: source and target of a composite; identities; (t·u)·v = t·(u·v) where defined; t·inverse(t) =
+/// identity(source(t)).
 /// Refuses `delta`, whose sum is total. That is a group: a groupoid with one object, which has one name here, not two.
 template <class T>
 concept groupoid = std::regular<T> && requires(T const& t, T const& u) {
@@ -107,8 +108,8 @@ struct action;
 /// A group that moves the points of a set.
 ///
 /// Laws: identity·x = x, (g·h)·x = g·(h·x); hence each g is a bijection of X, undone by inverse(g).
-/// Refuses `event` on allocations: not every event is applicable, and events are no group. `apply` obeys these laws where
-/// both sides exist.
+/// Refuses `event` on allocations: not every event is applicable, and events are no group. `apply` obeys these laws
+/// where both sides exist.
 template <class G, class X>
 concept group_action = group<G> && std::regular<X> && requires(G const& g, X const& x) {
   { action<G, X>::act(g, x) } -> std::same_as<X>;

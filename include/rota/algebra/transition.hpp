@@ -7,21 +7,21 @@
 
 namespace rota {
 
-/// Refusal: two arrows that do not meet, and the least atom on which the target of the first and the source of the second
-/// differ.
+/// Refusal: two arrows do not meet. The witness is the least atom in which the target of the first and the source of
+/// the second differ.
 template <ordered_atom Atom>
 struct arrows_do_not_meet {
   Atom witness{};
   friend bool operator==(arrows_do_not_meet const&, arrows_do_not_meet const&) = default;
 };
 
-/// An arrow C → C′ of the pair groupoid of atom sets: what an allocation was, and what it became. Any storage of sets will
-/// do, `atom_set` and `dense_atom_set` among them.
+/// An arrow C → C′ of the pair groupoid of atom sets: an allocation before and after a change. The sets may be
+/// `atom_set`, `dense_atom_set` or another `allocation_set`.
 ///
-/// Any two sets are joined by exactly one arrow. Composition is partial: the target of the first must be the source of
-/// the second. It is associative where defined, every arrow is invertible, and there is an identity per set; this is a
-/// groupoid, not a group. `event_of` is its shadow in the events, `delta_of` a functor to the group of deltas.
-/// Sets over a finite universe: @pre both are over the same universe.
+/// Exactly one arrow leads from one set to another. Composition is partial: the target of the first must be the source
+/// of the second. It is associative where it is defined, every arrow is invertible, and each set has an identity. So
+/// this is a groupoid and not a group. `event_of` maps arrows to events, `delta_of` is a functor to the group of
+/// deltas. Sets over a finite universe: @pre both are over the same universe.
 template <allocation_set Set>
 class transition {
 public:
@@ -34,7 +34,7 @@ public:
   constexpr transition(Set source, Set target) : source_(std::move(source)), target_(std::move(target)) {}
   /// C → C.
   [[nodiscard]] static constexpr transition identity(Set const& c) { return {c, c}; }
-  /// C → e·C, or the least atom at which e is not applicable. Takes as long as `apply`.
+  /// C → e·C, or the least atom at which e is not applicable. As fast as `apply`.
   [[nodiscard]] static constexpr result<transition, inapplicable<atom_type>> make(Set const& c, event_type const& e) {
     auto target = apply(e, c);
     if (!target) return refused{target.error()};
@@ -64,11 +64,11 @@ template <allocation_set Set>
   return {t.source(), u.target()};
 }
 
-/// As `compose`, refusing arrows that do not meet. O(|C′|).
+/// As `compose`, but refuses arrows that do not meet. O(|C′|).
 template <allocation_set Set>
 [[nodiscard]] constexpr result<transition<Set>, arrows_do_not_meet<typename transition<Set>::atom_type>>
 checked_compose(transition<Set> const& t, transition<Set> const& u) {
-  // Where the event that leads from one set to the other is to be applied at the other, each of its atoms offends.
+  // The event leads from one set to the other. At the other set, it is not applicable at any of its atoms.
   auto const meet = apply(difference(t.target(), u.source()), u.source());
   if (!meet) return refused{arrows_do_not_meet<typename transition<Set>::atom_type>{meet.error().witness}};
   return compose(t, u);
@@ -80,7 +80,7 @@ template <allocation_set Set>
   return {t.target(), t.source()};
 }
 
-/// diff(C, C′), the event that the arrow is. Laws: compose(event_of(t), event_of(u)) = event_of(compose(t, u)).
+/// diff(C, C′), the event along the arrow. Laws: compose(event_of(t), event_of(u)) = event_of(compose(t, u)).
 template <allocation_set Set>
 [[nodiscard]] constexpr event_on<Set> event_of(transition<Set> const& t) {
   return difference(t.source(), t.target());

@@ -13,17 +13,17 @@
 
 namespace rota {
 
-/// Refusal: this atom is not in the universe, so that no bit stands for it.
+/// Refusal: this atom is not in the universe, so it has no bit.
 template <ordered_atom Atom>
 struct outside_universe {
   Atom witness{};
   friend bool operator==(outside_universe const&, outside_universe const&) = default;
 };
 
-/// A finite set of atoms that knows each one's index: what `dense_event` and `dense_atom_set` need. Cheap to copy.
+/// A finite set of atoms that knows the index of each, as `dense_event` and `dense_atom_set` need it. Cheap to copy.
 ///
-/// Laws: `index_of` and `atom_at` are inverse bijections between the universe and {0, …, size() − 1}, and keep the order.
-/// `index_of(x)` refuses exactly the atoms outside. @pre of `atom_at(i)`: i < size()
+/// Laws: `index_of` and `atom_at` are inverse bijections between the universe and {0, …, size() − 1}, and keep the
+/// order. `index_of(x)` refuses exactly the atoms outside the universe. @pre of `atom_at(i)`: i < size()
 template <class U>
 concept atom_universe = std::regular<U> && ordered_atom<typename U::atom_type> &&
                         requires(U const& u, typename U::atom_type const& x, std::size_t i) {
@@ -34,14 +34,14 @@ concept atom_universe = std::regular<U> && ordered_atom<typename U::atom_type> &
                           { u.atom_at(i) } -> std::convertible_to<typename U::atom_type>;
                         };
 
-/// A universe that its type determines. Sets and events over it are plain values: no allocation, no reference.
+/// A universe that its type determines. Sets and events over it allocate nothing and refer to nothing.
 ///
-/// Refuses `listed_universe`, whose atoms are known at run time only.
+/// Refuses `listed_universe`, whose atoms are known only at run time.
 template <class U>
 concept fixed_universe =
     atom_universe<U> && std::is_empty_v<U> && requires { typename std::integral_constant<std::size_t, U::size()>; };
 
-/// The numbers below N: for atoms that are indices already.
+/// The numbers below N, for atoms that are indices already.
 template <std::size_t N>
 struct index_universe {
   using atom_type = std::size_t;
@@ -65,17 +65,17 @@ struct name_list {
   static constexpr std::array names{Names...};
   static_assert(std::adjacent_find(names.begin(), names.end(), [](auto const& x, auto const& y) { return !(x < y); }) ==
                     names.end(),
-                "the names of a name_list ascend strictly");
+                "the names of a name_list must be strictly ascending");
 
   [[nodiscard]] static constexpr std::size_t size() noexcept { return sizeof...(Names); }
-  /// The place of x among the names, or `size()`. O(log size()).
+  /// The place of x among the names, or `size()` if it is not one. O(log size()).
   [[nodiscard]] static constexpr std::size_t place_of(auto const& x) noexcept {
     auto const where = std::lower_bound(names.begin(), names.end(), x);
     return where != names.end() && *where == x ? static_cast<std::size_t>(where - names.begin()) : size();
   }
 };
 
-/// Agents × Plans × Tasks: every In(a, p, τ) over the listed names. Up to 64 of them make one-word events.
+/// Agents × Plans × Tasks: every In(a, p, τ) over the listed names. If there are at most 64, a set takes one word.
 template <vocabulary V, class Agents, class Plans, class Tasks>
 struct in_universe {
   using atom_type = in<V>;
@@ -96,7 +96,7 @@ struct in_universe {
   friend bool operator==(in_universe const&, in_universe const&) = default;
 };
 
-/// A view of a set of atoms that is known at run time only, such as a team's atoms read from plan files.
+/// A view of a set of atoms that is known only at run time, such as the atoms of a team read from plan files.
 ///
 /// @pre the set neither moves nor changes while this universe, or anything over it, is in use
 template <ordered_atom Atom>
@@ -104,7 +104,7 @@ class listed_universe {
 public:
   using atom_type = Atom;
 
-  /// The universe without atoms.
+  /// The empty universe.
   constexpr listed_universe() = default;
   constexpr explicit listed_universe(atom_set<Atom> const& atoms) noexcept : atoms_(atoms.atoms()) {}
   listed_universe(atom_set<Atom>&&) = delete;
@@ -121,7 +121,7 @@ public:
     return atoms_[i];
   }
 
-  /// Whether the atoms are the same. O(1) for views of one set, else O(size()).
+  /// Whether the atoms are the same. O(1) for two views of one set, else O(size()).
   friend constexpr bool operator==(listed_universe const& u, listed_universe const& v) {
     return u.size() == v.size() &&
            (u.atoms_.data() == v.atoms_.data() || std::equal(u.atoms_.begin(), u.atoms_.end(), v.atoms_.begin()));

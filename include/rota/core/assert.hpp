@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// `ROTA_ASSERT(condition)` checks what a `@pre` asks of the caller; `ROTA_REPORT(text)` says what the condition cannot.
+/// `ROTA_ASSERT(condition)` checks a `@pre`; `ROTA_REPORT(text)` prints a line of text before the program ends.
 ///
 /// Define either before the first include to route failures to your engine, or as `((void)0)` to drop it. Neither
 /// changes a layout, or a result of a correct program.

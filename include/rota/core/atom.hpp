@@ -16,13 +16,13 @@ struct in {
   typename V::plan plan{};
   typename V::task task{};
 
-  // strong_ordering, not auto: derived from < and == for names that predate <=>, which `identifier` admits.
+  // strong_ordering, not auto: so it is made of < and == for identifiers without <=>, which `identifier` admits.
   friend std::strong_ordering operator<=>(in const&, in const&) = default;
 };
 
 /// The atom In(a, p, τ, z): as `in`, and a currently inhabits state z. (Source: section 3.)
 ///
-/// The state matters for clause (4) of Def. 1 only; conflicts, events and cycles live on the projection `project(x)`.
+/// Only clause (4) of Def. 1 needs the state. Conflicts, events and cycles are about the projection `project(x)`.
 template <vocabulary V = runtime_vocabulary>
 struct in_state {
   using vocabulary_type = V;

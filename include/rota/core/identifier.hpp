@@ -7,16 +7,17 @@
 
 namespace rota {
 
-/// A name: regular, totally ordered, cheap to copy. Enumerations, integers and `strong_id<Tag>` qualify.
+/// A name: regular, totally ordered, cheap to copy. Enumerations, integers and `strong_id<Tag>` are identifiers.
 ///
-/// Refuses `double` and `float`: NaN makes their order partial, and two beliefs may round differently.
+/// Refuses `double` and `float`: NaN makes their order partial, and two robots may round differently.
 template <class T>
 concept identifier =
     std::regular<T> && std::totally_ordered<T> && std::is_trivially_copyable_v<T> && !std::floating_point<T>;
 
-/// A strong run-time identifier, for names read from plan files or messages.
+/// An identifier that is known only at run time, for names read from plan files or messages.
 ///
-/// `Rep` is 64 bits by default (ALICA's ids); an array of 16 bytes serves for UUIDs. Different tags never mix.
+/// `Rep` is 64 bits by default, as ALICA's ids are; use an array of 16 bytes for UUIDs. Identifiers of different tags
+/// do not convert to each other.
 template <class Tag, class Rep = std::uint64_t>
 struct strong_id {
   using rep = Rep;

@@ -63,8 +63,8 @@ concept has_floating_to_chars = requires(char* p, T x) { std::to_chars(p, p, x, 
   return out + digits.substr(0, whole) + "." + digits.substr(whole);
 }
 
-/// `number(x)` for libraries without std::to_chars of double: the fewest digits that printf and strtod agree on. Both read
-/// and write the locale's decimal point, which is dropped. @pre x is finite
+/// `number(x)` for libraries without std::to_chars of double: the fewest digits that printf and strtod agree on. Both
+/// read and write the locale's decimal point, which is dropped. @pre x is finite
 [[nodiscard]] inline std::string number_by_printf(double x) {
   char text[64];
   for (int precision = 0;; ++precision) {
@@ -135,9 +135,9 @@ template <class Bytes>
 
 /// Prints a name. The default wherever a function takes a way to name agents, plans, tasks and states.
 ///
-/// Uses the `to_string(id)` that stands beside the type of the identifier (or a friend of the vocabulary, if the type is
-/// nested in it), whatever string type it returns. Without one it prints the number of an enumeration, an integer or a
-/// `strong_id`, and bytes in hexadecimal; "?" for anything else.
+/// Uses the `to_string(id)` that stands beside the type of the identifier (or a friend of the vocabulary, if the type
+/// is nested in it), whatever string type it returns. Without one it prints the number of an enumeration, an integer or
+/// a `strong_id`, and bytes in hexadecimal; "?" for anything else.
 struct default_names {
   template <class Id>
   [[nodiscard]] std::string operator()(Id const& id) const {

@@ -47,9 +47,10 @@ template <class Refusal>
 
 /// A value, or a typed refusal that says why there is none.
 ///
-/// The set T + Refusal. C++20 has no `std::expected`; this is the part of it that the library needs. It throws nothing of
-/// its own. Taking the value of a refused one ends the program and names the refusal: by the text of `reason_of(refusal)`,
-/// where a `char const* reason_of(Refusal const&)` stands beside its type, else by the name of the type.
+/// The set T + Refusal. C++20 has no `std::expected`; this is the part of it that the library needs. It throws nothing
+/// of its own. Taking the value of a refused one ends the program and names the refusal: by the text of
+/// `reason_of(refusal)`, where a `char const* reason_of(Refusal const&)` stands beside its type, else by the name of
+/// the type.
 template <class T, class Refusal>
 class [[nodiscard]] result {
 public:
@@ -88,7 +89,7 @@ public:
   friend bool operator==(result const&, result const&) = default;
 
 private:
-  // Exactly one holds a value. A std::variant would be smaller, but g++ 11 and clang 16 refuse it in constant expressions.
+  // Exactly one holds a value. A std::variant is smaller, but g++ 11 and clang 16 refuse it in constant expressions.
   std::optional<T> value_;
   std::optional<Refusal> refusal_;
 };

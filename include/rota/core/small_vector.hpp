@@ -18,7 +18,8 @@ namespace detail {
 
 struct filled {};
 
-/// N places for what is trivially copied, which comes to life by being assigned to: filled in constant expressions only.
+/// N places for a type that is trivially copied. Assigning starts its lifetime, so only constant expressions need the
+/// places to be filled first.
 template <class T, std::size_t N>
 union unfilled_places {
   constexpr unfilled_places() noexcept {}
@@ -32,11 +33,11 @@ struct filled_places {
 
 }  // namespace detail
 
-/// A sequence whose first `N` elements live inside the object: up to `N` nothing is allocated.
+/// A sequence that keeps up to `N` elements inside the object, and allocates only for more.
 ///
-/// Why not boost::container::small_vector: that of Boost 1.74 works in no constant expression, and costs three times
-/// `<vector>` to include. Elements are regular and default constructible, which keeps this one short; removed
-/// elements keep their last value until overwritten.
+/// Not boost::container::small_vector: Boost 1.74 offers it in no constant expression, and it costs three times
+/// `<vector>` to include. This one stays short because elements are regular and default constructible. A removed
+/// element keeps its last value until it is overwritten.
 ///
 /// Complexity: as std::vector; move is O(N) while inline.
 template <std::semiregular T, std::size_t N>
@@ -49,7 +50,7 @@ public:
   static constexpr bool nothrow_movable = std::is_nothrow_move_assignable_v<T>;
 
   constexpr small_vector() : inline_(no_places()) {}
-  // Delegating, so that the destructor runs when copying an element throws.
+  // It delegates, so that the destructor runs if copying an element throws.
   constexpr small_vector(std::initializer_list<T> items) : small_vector(items.begin(), items.end()) {}
   template <std::input_iterator I, std::sentinel_for<I> S>
   constexpr small_vector(I first, S last) : small_vector() {
@@ -117,8 +118,8 @@ public:
     if (size_ == capacity_) reserve(capacity_ < 4 ? 8 : 2 * capacity_);
     data()[size_++] = std::move(item);
   }
-  /// Appends what `write(first)` puts into the places from `first` on: at most `most` elements, whose end it returns.
-  /// For loops that cannot afford a capacity check per element.
+  /// Calls `write(first)`, which writes at most `most` elements from `first` on and returns their end, and appends
+  /// these. For loops that cannot afford to check the capacity for each element.
   template <std::invocable<T*> F>
   constexpr void append(std::size_t most, F&& write) {
     reserve(size_ + most);
@@ -163,7 +164,8 @@ public:
   }
 
 private:
-  // What is trivially copied comes to life by being assigned to: to fill it first would double the cost of a large result.
+  // Assigning starts the lifetime of a trivially copied element; filling the places first would double the cost of a
+  // large result.
   static constexpr bool needs_no_filling =
       std::is_trivially_copyable_v<T> && alignof(T) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__;
 

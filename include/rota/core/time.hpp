@@ -6,7 +6,7 @@
 
 namespace rota {
 
-/// A span of time in nanoseconds, possibly negative. Arithmetic is exact; overflow (beyond ±292 years) is a precondition.
+/// A length of time in nanoseconds, possibly negative. Arithmetic is exact. @pre results stay within ±292 years
 struct duration {
   std::int64_t ns = 0;
 
@@ -16,9 +16,11 @@ struct duration {
   friend constexpr duration operator-(duration a) noexcept { return {-a.ns}; }
   friend constexpr duration operator*(duration a, std::int64_t n) noexcept { return {a.ns * n}; }
   friend constexpr duration operator*(std::int64_t n, duration a) noexcept { return {a.ns * n}; }
+  constexpr duration& operator+=(duration b) noexcept { return *this = *this + b; }
+  constexpr duration& operator-=(duration b) noexcept { return *this = *this - b; }
 };
 
-/// A point on one agent's own clock. Clocks of different agents are never compared: messages carry durations.
+/// A point in time on one robot's own clock. Clocks of different robots are never compared: messages carry durations.
 struct instant {
   std::int64_t ns = 0;
 
@@ -26,6 +28,8 @@ struct instant {
   friend constexpr instant operator+(instant t, duration d) noexcept { return {t.ns + d.ns}; }
   friend constexpr instant operator-(instant t, duration d) noexcept { return {t.ns - d.ns}; }
   friend constexpr duration operator-(instant a, instant b) noexcept { return {a.ns - b.ns}; }
+  constexpr instant& operator+=(duration d) noexcept { return *this = *this + d; }
+  constexpr instant& operator-=(duration d) noexcept { return *this = *this - d; }
 };
 
 [[nodiscard]] constexpr duration nanoseconds(std::int64_t n) noexcept { return {n}; }
@@ -33,12 +37,12 @@ struct instant {
 [[nodiscard]] constexpr duration milliseconds(std::int64_t n) noexcept { return {n * 1'000'000}; }
 [[nodiscard]] constexpr duration seconds(std::int64_t n) noexcept { return {n * 1'000'000'000}; }
 
-/// Length in seconds, for printing and statistics.
+/// The length in seconds, for statistics.
 [[nodiscard]] constexpr double to_seconds(duration d) noexcept { return static_cast<double>(d.ns) * 1e-9; }
-/// Length in milliseconds, for printing and statistics.
+/// The length in milliseconds, for statistics.
 [[nodiscard]] constexpr double to_milliseconds(duration d) noexcept { return static_cast<double>(d.ns) * 1e-6; }
 
-/// Later than every instant that occurs.
+/// Later than every instant that a clock shows.
 inline constexpr instant never{(std::numeric_limits<std::int64_t>::max)()};
 
 }  // namespace rota

@@ -6,7 +6,7 @@ namespace rota {
 
 namespace detail {
 
-/// Instantiated for identifiers that have `==` and `<` and lack the rest of the order: the name is what compilers say first.
+/// Instantiated for identifiers that have `==` and `<` but not the rest of the order. Compilers print its name first.
 template <class Identifier>
 struct three_way_comparison_is_missing_in {
   static_assert(std::totally_ordered<Identifier>,
@@ -25,8 +25,8 @@ concept named_identifier = identifier<T> || (half_ordered<T> && three_way_compar
 
 /// The five sorts of names a team speaks in: agents a, plan types pt, plans p, tasks τ and states z.
 ///
-/// Usually a struct of scoped enumerations. Which agents, plans and tasks there are is said by the team and the plans; an
-/// enumeration is never enumerated.
+/// Usually a struct of scoped enumerations. Which agents, plans and tasks there are is said by the team and the plans;
+/// an enumeration is never enumerated.
 template <class V>
 concept vocabulary = detail::named_identifier<typename V::agent> && detail::named_identifier<typename V::plan_type> &&
                      detail::named_identifier<typename V::plan> && detail::named_identifier<typename V::task> &&

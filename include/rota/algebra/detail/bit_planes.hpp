@@ -18,7 +18,7 @@ using word = std::uint64_t;
 
 constexpr std::size_t words_for(std::size_t atoms) noexcept { return atoms / 64 + (atoms % 64 != 0); }
 
-/// Words in an array where the type says how many; else inside the object up to 256 atoms, and in one allocation beyond.
+/// An array of words if the type says how many; else words inside the object up to 256 atoms, in one allocation beyond.
 template <atom_universe U, std::size_t Planes>
 struct plane_storage {
   using type = small_vector<word, 4 * Planes>;
@@ -28,7 +28,7 @@ struct plane_storage<U, Planes> {
   using type = std::array<word, Planes * words_for(U::size())>;
 };
 
-/// The universe of a value, which leaves the empty one behind when it is moved from. Nothing where the type knows it.
+/// The universe of a value. Moving from it leaves the empty universe. Stores nothing if the type says which it is.
 template <atom_universe U>
 struct held_universe {
   U value{};
@@ -51,7 +51,7 @@ struct held_universe<U> {
   friend bool operator==(held_universe const&, held_universe const&) = default;
 };
 
-/// Writes planes of n words, one after the other: `words_at(i)` gives word i of each.
+/// Writes planes of n words, one after the other. `words_at(i)` returns word i of each plane.
 template <std::size_t Planes, class F>
 [[gnu::always_inline]] constexpr void write_planes(word* out, std::size_t n, F& words_at) {
   for (std::size_t i = 0; i < n; ++i) {
@@ -60,8 +60,8 @@ template <std::size_t Planes, class F>
   }
 }
 
-// Where the compiler must not assume them, registers of 256 bits are asked for at run time; worth it from 1024 atoms on.
-// `out` is fresh, so nothing that is read there.
+// Where the compiler must not assume them, registers of 256 bits are asked for at run time; worth it from 1024 atoms
+// on. `out` is fresh, so nothing that is read there.
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(__AVX2__)
 inline bool has_wide_registers() noexcept { return __builtin_cpu_supports("avx2") != 0; }
 template <std::size_t Planes, class F>
@@ -78,14 +78,15 @@ void write_planes_widely(word* out, std::size_t n, F& words_at) {  // right, sho
 
 /// `Planes` subsets of a universe: bit i % 64 of word i / 64 of a plane tells whether atom i is in it.
 ///
-/// Class invariant: bits beyond the universe are zero. Moved from, one of run-time size is over the empty universe.
+/// Class invariant: bits beyond the universe are zero. If the universe is known only at run time, moving from a value
+/// leaves it over the empty one.
 template <atom_universe U, std::size_t Planes>
 class bit_planes {
 public:
   /// All empty.
   constexpr explicit bit_planes(U const& universe = {})
       : bit_planes(universe, [](std::size_t) { return std::array<word, Planes>{}; }) {}
-  /// With the words that `words_at(i)` gives for word i of each plane. @pre none has a bit beyond the universe
+  /// `words_at(i)` returns word i of each plane. @pre no word has a bit beyond the universe
   template <std::invocable<std::size_t> F>
   constexpr bit_planes(U const& universe, F&& words_at) : universe_{universe} {
     std::size_t const n = words();
@@ -130,10 +131,10 @@ public:
 
 private:
   [[no_unique_address]] held_universe<U> universe_;
-  typename plane_storage<U, Planes>::type words_;  // filled by every constructor
+  typename plane_storage<U, Planes>::type words_;  // every constructor fills it
 };
 
-/// The index of the lowest bit of the n words `word_at(i)`, or 64·n where all are zero.
+/// The index of the lowest bit of the n words `word_at(i)`, or 64·n if all are zero.
 template <class F>
 constexpr std::size_t lowest_bit(std::size_t n, F&& word_at) {
   for (std::size_t i = 0; i < n; ++i)

@@ -5,19 +5,21 @@
 #include <cstring>
 #include <type_traits>
 
-/// Merging two runs of signed atoms, strictly ascending by atom. Nothing predicts which of two atoms is less, so no step
-/// branches on it; and as each step waits for the one before it, two merges run side by side, from both ends.
+/// Merges two sequences of signed atoms, each strictly ascending by atom. Which of two atoms is less cannot be
+/// predicted, so no step branches on it. Each step waits for the one before it, so two merges run side by side, one
+/// from each end.
 
 namespace rota::detail {
 
-/// b as 0 or 1. Hidden from the optimiser, which would branch again on what it knows to be a condition.
+/// b as 0 or 1. Hidden from the optimiser, which would turn a number made of a condition back into a branch.
 constexpr std::size_t as_number(bool b) noexcept {
   std::size_t n = b;
   if (!std::is_constant_evaluated()) asm("" : "+r"(n));
   return n;
 }
 
-/// What one step of a merge takes from each run, and whether it leaves an entry: two of one atom cancel or are the same.
+/// How many entries one step of a merge takes from each sequence, and how many it leaves: two entries of one atom leave
+/// none if they cancel, one if they are equal.
 struct merge_step {
   std::size_t from_x;
   std::size_t from_y;
@@ -28,7 +30,7 @@ struct merge_step {
       : from_x(as_number(x_first)), from_y(as_number(y_first)), left((from_x ^ from_y) | (x.value == y.value)) {}
 };
 
-/// *out = *from, padding included: a large entry is copied by few wide moves instead of member by member.
+/// *out = *from, with the padding: so a large entry is copied by a few wide moves, not member by member.
 template <class Entry>
 constexpr void copy_whole(Entry* out, Entry const* from) {
   if constexpr (std::is_trivially_copyable_v<Entry>) {
@@ -40,7 +42,7 @@ constexpr void copy_whole(Entry* out, Entry const* from) {
   *out = *from;
 }
 
-/// std::copy, without a call where there is next to nothing to copy.
+/// std::copy, without the call if there are few entries to copy.
 template <class Entry>
 constexpr Entry* copy_run(Entry const* first, Entry const* last, Entry* out) {
   if (last - first > 8) return std::copy(first, last, out);
@@ -48,7 +50,7 @@ constexpr Entry* copy_run(Entry const* first, Entry const* last, Entry* out) {
   return out;
 }
 
-/// Two runs of similar length. O(|x| + |y|).
+/// Merges sequences of similar length. O(|x| + |y|).
 template <class Entry>
 constexpr Entry* merge_evenly(Entry const* x, Entry const* x_end, Entry const* y, Entry const* y_end, Entry* out) {
   Entry* const end = out + (x_end - x) + (y_end - y);
@@ -69,7 +71,7 @@ constexpr Entry* merge_evenly(Entry const* x, Entry const* x_end, Entry const* y
     y_end -= step.from_y;
     back -= step.left;
   };
-  // For so many, the ends cannot meet.
+  // The two ends cannot meet within so many steps.
   auto const safe_steps = [&] { return static_cast<std::size_t>((std::min)(x_end - x, y_end - y)) / 2; };
   for (auto steps = safe_steps(); steps > 1; steps = safe_steps())
     for (; steps > 0; --steps) {
@@ -81,8 +83,8 @@ constexpr Entry* merge_evenly(Entry const* x, Entry const* x_end, Entry const* y
   return out == back ? end : std::move(back, end, out);
 }
 
-/// A long run and a short one: finds each place by steps that double, and copies what lies between. O(|y| log |x|)
-/// comparisons.
+/// Merges a long sequence x and a short one y: finds the place of each entry of y by steps that double, and copies the
+/// entries between. O(|y| log |x|) comparisons.
 template <class Entry>
 constexpr Entry* merge_into(Entry const* x, Entry const* x_end, Entry const* y, Entry const* y_end, Entry* out) {
   for (; y != y_end; ++y) {
@@ -99,7 +101,7 @@ constexpr Entry* merge_into(Entry const* x, Entry const* x_end, Entry const* y, 
   return std::copy(x, x_end, out);
 }
 
-/// Writes the clamped sum of two events, at most |x| + |y| entries, and returns its end.
+/// Writes the clamped sum of two events, at most |x| + |y| entries, and returns their end.
 template <class Entry>
 constexpr Entry* merge(Entry const* x, Entry const* x_end, Entry const* y, Entry const* y_end, Entry* out) {
   constexpr std::size_t lopsided = 16;
