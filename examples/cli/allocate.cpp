@@ -1,4 +1,5 @@
 #include "command.hpp"
+#include "costs.hpp"
 #include "json.hpp"
 #include "target.hpp"
 #include "text.hpp"
@@ -27,6 +28,7 @@ struct question {
   target const& where;
   roster const& who;
   utilities const& worth;
+  std::optional<cost_scale> const& costs;  ///< none: `worth` are utilities
   rota::plan_type<vocabulary> const& type;
   rota::problem<vocabulary, no_beliefs> const& problem;
   allocation_atoms<vocabulary> current;
@@ -36,10 +38,12 @@ struct question {
   [[nodiscard]] std::string task(atom const& x) const { return where.name(where.plan(x.plan), x.task); }
 };
 
-rota::plan_type<vocabulary> build_type(target const& t, roster const& who, utilities const& worth) {
-  auto const factory = [&](alica::plan const& p) -> additive_utility<vocabulary, no_beliefs> {
-    return [&who, &worth, id = vocabulary::plan{p.id}](vocabulary::agent a, vocabulary::task task, no_beliefs const&) {
-      return worth(who.name(a), id, task);
+rota::plan_type<vocabulary> build_type(target const& t, roster const& who, utilities const& worth,
+                                       std::optional<cost_scale> const& costs) {
+  auto const factory = [&](alica::plan const& p) {
+    return [&, id = vocabulary::plan{p.id}](vocabulary::agent a, vocabulary::task task, no_beliefs const&) {
+      auto const cell = worth(who.name(a), id, task);
+      return cell && costs ? std::optional(costs->utility(in_steps(*cell))) : cell;
     };
   };
   auto made = t.type != nullptr ? alica::to_plan_type(t.model, *t.type, factory)
@@ -84,10 +88,13 @@ std::string explain(plan_refusal<vocabulary> const& r, question const& q) {
               : r.agent != vocabulary::agent{} ? ": left over is " + q.who.name(r.agent)
                                                : std::string());
     case no_plan_reason::utility_refused: return "a utility " + to_string(r.fault);
-    case no_plan_reason::utilities_too_great: return "the utilities are too large to be summed exactly";
+    case no_plan_reason::utilities_too_great:
+      return q.costs ? "the costs are too far apart to be summed exactly for so many agents"
+                     : "the utilities are too large to be summed exactly";
     case no_plan_reason::precondition_never_holds: return "its precondition never holds";
     case no_plan_reason::precondition_threw: return "its precondition failed";
-    case no_plan_reason::negative_utility: return "its utility is at most " + number(r.value) + ", below 0";
+    case no_plan_reason::negative_utility:
+      return "its utility is at most " + number(r.value) + ", below 0 (costs are written as they are, with --minimise)";
     case no_plan_reason::change_cost_refused: return "the change cost " + to_string(r.fault);
     case no_plan_reason::search_incomplete: return "the search ended before it found one";
     }
@@ -96,11 +103,15 @@ std::string explain(plan_refusal<vocabulary> const& r, question const& q) {
   return q.where.name(p) + ": " + why;
 }
 
-/// What an agent at a task counts: the cell of the table in the solver's steps of 2^-20.
-double counted_utility(question const& q, atom const& x) {
-  auto const cell = q.worth(q.who.name(x.agent), x.plan, x.task);
-  auto const steps = quantise(cell.value_or(0));
-  return steps ? to_double(*steps) : 0;
+/// What an agent at a task counts, as a utility or as a cost.
+double counted_cell(question const& q, atom const& x) {
+  return in_steps(q.worth(q.who.name(x.agent), x.plan, x.task).value_or(0));
+}
+
+double total_of(question const& q, allocation_atoms<vocabulary> const& atoms) {
+  double total = 0;
+  for (atom const& x : atoms) total += counted_cell(q, x);
+  return total;
 }
 
 std::vector<std::string> idle_agents(question const& q, allocation_atoms<vocabulary> const& atoms) {
@@ -113,15 +124,19 @@ std::vector<std::string> idle_agents(question const& q, allocation_atoms<vocabul
 /// What a running team would do about it.
 named_decision decide(question const& q, solution<vocabulary> const& s) {
   auto const r = reallocate<vocabulary, no_beliefs>(q.problem, hysteresis{}, s);
-  auto const gain = r.gain ? number(*r.gain) : std::string();
+  auto const gain = [&](std::string const& compared) -> std::string {
+    if (!q.costs) return "gain " + number(r.gain.value_or(0)) + compared;
+    if (s.atoms.size() != q.current.size()) return "more agents have a task";
+    return "saves " + number(total_of(q, q.current) - total_of(q, s.atoms)) + compared;
+  };
   switch (r.reason) {
   case reallocation_reason::first: return {false, "the team has no allocation yet"};
-  case reallocation_reason::adopted_better: return {false, "gain " + gain + ", more than the hysteresis"};
+  case reallocation_reason::adopted_better: return {false, gain(", more than the hysteresis")};
   case reallocation_reason::current_invalid: return {false, "the current allocation is not valid"};
   case reallocation_reason::kept_optimal:
     return {true, q.current.empty() ? "nothing is better than no task for anybody"
                                     : "nothing is better than the current allocation"};
-  case reallocation_reason::kept_hysteresis: return {true, "gain " + gain + ", no more than the hysteresis"};
+  case reallocation_reason::kept_hysteresis: return {true, gain(", no more than the hysteresis")};
   case reallocation_reason::kept_unproved: return {true, "nothing better was found"};
   case reallocation_reason::no_valid_allocation: return {false, "no allocation is valid"};
   case reallocation_reason::search_incomplete: break;
@@ -138,6 +153,7 @@ named_answer named(question const& q, solution<vocabulary> const& s) {
   named_answer out;
   out.plan = q.where.name(q.where.plan(s.plan));
   out.utility = s.utility;
+  if (q.costs) out.cost = total_of(q, s.atoms);
   out.optimal = s.optimal;
   out.gap = s.gap;
   for (atom const& x : s.atoms) out.assignment.emplace_back(q.who.name(x.agent), q.task(x));
@@ -181,10 +197,11 @@ std::string clauses(question const& q, solution<vocabulary> const& s, validity_r
        !file.precondition           ? "the plan has none"
        : file.precondition->empty() ? "taken to hold: the file does not spell it out"
                                     : "taken to hold, not evaluated: " + *file.precondition);
+  auto const have = of_pairs([&](atom const& x) { return q.worth(q.who.name(x.agent), x.plan, x.task).has_value(); });
   line("(6) utility", {clause::utility, clause::forbidden_pair},
-       number(s.utility) + (s.utility >= 0 ? " is at least 0, and " : " is below 0, and ") +
-           of_pairs([&](atom const& x) { return q.worth(q.who.name(x.agent), x.plan, x.task).has_value(); }) +
-           " have a utility");
+       q.costs          ? "what costs less counts more, never below 0, and " + have + " have a cost"
+       : s.utility >= 0 ? number(s.utility) + " is at least 0, and " + have + " have a utility"
+                        : number(s.utility) + " is below 0, and " + have + " have a utility");
   line("team size", {clause::team_size}, std::to_string(employed.size()) + " in " + interval(p.team_size()));
   line("role", {clause::role},
        "not applied: a table names no roles; an empty cell forbids" +
@@ -204,16 +221,25 @@ std::string as_text(question const& q, solution<vocabulary> const& s, validity_r
   line("plan     " + q.where.name(p) + " (" + std::to_string(p.id) + ")" +
        (q.where.type != nullptr ? ", best of " + counted(q.where.plans.size(), "plan") + " of " + q.where.type->name
                                 : ""));
-  line("utility  " + number(s.utility) +
-       (s.optimal ? ", proved optimal" : ", at most " + number(s.gap) + " below the best"));
-  if (s.runner_up)
-    line("next     " + q.where.name(q.where.plan(s.runner_up->plan)) + " with " + number(s.runner_up->utility) + ", " +
-         number(s.runner_up->distance) + " less");
+  if (q.costs)
+    line("cost     " + number(total_of(q, s.atoms)) + " for " + counted(s.atoms.size(), "agent") + " with a task" +
+         (s.optimal                           ? ", proved optimal"
+          : s.gap < q.costs->one_more_agent() ? ", at most " + number(s.gap) + " above the least"
+                                              : "; perhaps more agents can have one"));
+  else
+    line("utility  " + number(s.utility) +
+         (s.optimal ? ", proved optimal" : ", at most " + number(s.gap) + " below the best"));
+  if (s.runner_up) {
+    auto const& next = *s.runner_up;
+    line("next     " + q.where.name(q.where.plan(next.plan)) + " with " +
+         (q.costs ? number(q.costs->cost(next.utility)) + " for " + counted(q.costs->employed(next.utility), "agent")
+                  : number(next.utility) + ", " + number(next.distance) + " less"));
+  }
   line("assignment");
   std::size_t width = 0;
   for (auto const a : q.problem.participants) width = std::max(width, q.who.name(a).size());
   for (atom const& x : s.atoms)
-    line("  " + padded(q.who.name(x.agent), width) + "  " + q.task(x) + "  " + number(counted_utility(q, x)));
+    line("  " + padded(q.who.name(x.agent), width) + "  " + q.task(x) + "  " + number(counted_cell(q, x)));
   for (auto const& name : idle_agents(q, s.atoms)) line("  " + padded(name, width) + "  (idle)");
   out += "valid, because\n" + clauses(q, s, report);
   if (!q.has_current) return out;
@@ -256,12 +282,15 @@ outcome run_allocate(allocate_options const& o) {
     if (!std::binary_search(worth.agents().begin(), worth.agents().end(), pair.agent)) departed.push_back(pair.agent);
   roster const who{worth.agents(), departed};
 
-  auto const type = build_type(*where, who, worth);
+  std::optional<cost_scale> costs;
+  if (o.minimise) costs.emplace(worth.table(), o.utilities);
+  auto const type = build_type(*where, who, worth, costs);
   team<vocabulary> members;
   for (auto const a : who.present()) members.add(a);
   no_beliefs const beliefs;
   problem<vocabulary, no_beliefs> p{type, members, beliefs, o.no_idle ? idling::forbidden : idling::allowed};
-  question const q{*where, who, worth, type, p, atoms_of(old, *where, who, o.current), !o.current.empty(), departed};
+  question const q{*where,  who, worth, costs, type, p, atoms_of(old, *where, who, o.current), !o.current.empty(),
+                   departed};
   p.current = q.current.atoms();
 
   workspace work;

@@ -49,7 +49,8 @@ struct allocate_options {
   std::vector<std::string> plans;
   std::string plan_type;  ///< empty: to be found
   std::string utilities;
-  std::string current;  ///< empty: none
+  std::string current;    ///< empty: none
+  bool minimise = false;  ///< the table holds costs
   bool no_idle = false;
   std::optional<std::uint64_t> budget;  ///< steps; none: until done
   std::optional<double> deadline;       ///< ms; none: until done

@@ -72,6 +72,9 @@ void add_allocate(CLI::App& program, command& chosen) {
                  "CSV: header agent,TASK,... (PLAN/TASK with a plan type), one row per agent, empty = forbidden")
       ->required()
       ->check(check_not_empty);
+  sub.add_flag(
+      "--minimise,--minimize", o->minimise,
+      "the table holds costs, not negated: a task for as many agents as can have one, at the least total cost");
   sub.add_flag("--no-idle", o->no_idle, "every agent must have a task");
   sub.add_option("--current", o->current, "JSON, as --json prints it: the allocation to compare with")
       ->check(check_not_empty);
@@ -85,6 +88,7 @@ void add_allocate(CLI::App& program, command& chosen) {
   sub.add_flag("--json", o->json, "print JSON");
   sub.footer("Utilities count in steps of 2^-20, each cell rounded to the nearest (0.0000001 counts 0), so that\n"
              "equal tables give equal answers everywhere. They add up over agents; an idle agent counts 0.\n"
+             "So negated costs would leave everybody idle: write costs as they are, and add --minimise.\n"
              "The event leads from --current to the best allocation; the decision says whether a running team\n"
              "would change at all, given the hysteresis of the plan and that equals change nothing.\n"
              "A search that gives up prints the best valid allocation it found, and how far it may be from the best.\n"

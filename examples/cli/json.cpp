@@ -196,7 +196,7 @@ std::string as_json(named_answer const& a) {
   auto const change = [](named_change const& c) { return json_of(c); };
   ordered_json out;
   out["plan"] = a.plan;
-  out["utility"] = a.utility;
+  out[a.cost ? "cost" : "utility"] = a.cost.value_or(a.utility);
   out["optimal"] = a.optimal;
   if (!a.optimal) out["gap"] = a.gap;
   out["assignment"] = list_of(
@@ -240,10 +240,10 @@ named_allocation read_allocation(std::string const& file) {
     using type = nlohmann::json::value_t;
     // What the program prints beside the allocation itself is not used, but it must be what it claims to be.
     static std::map<std::string, type, std::less<>> const keys = {
-        {"plan", type::discarded},   {"utility", type::number_float}, {"optimal", type::boolean},
-        {"assignment", type::array}, {"idle", type::array},           {"event", type::object},
-        {"decision", type::object},  {"reason", type::string},        {"gap", type::number_float},
-        {"stats", type::object}};
+        {"plan", type::discarded},    {"utility", type::number_float}, {"optimal", type::boolean},
+        {"cost", type::number_float}, {"assignment", type::array},     {"idle", type::array},
+        {"event", type::object},      {"decision", type::object},      {"reason", type::string},
+        {"gap", type::number_float},  {"stats", type::object}};
     auto const at = keys.find(key);
     need(at != keys.end(), '/' + key, "an allocation has no such key");
     bool const fits = at->second == type::discarded || at->second == value.type() ||

@@ -41,6 +41,7 @@ struct search_report {
 struct named_answer {
   std::string plan;
   double utility = 0;
+  std::optional<double> cost;  ///< instead of the utility, where the table holds costs
   bool optimal = false;
   double gap = 0;  ///< how far the best may be, if this is not proved to be it
   std::vector<std::pair<std::string, std::string>> assignment;  ///< agent, task

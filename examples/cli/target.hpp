@@ -55,7 +55,7 @@ private:
   std::vector<vocabulary::agent> present_;
 };
 
-/// Additive utilities of the target's plans, read from a table by the names of agents and tasks.
+/// Additive utilities, or costs, of the target's plans, read from a table by the names of agents and tasks.
 class utilities {
 public:
   /// Throws `input_error` for a column that names no task of the target. Views nothing.
@@ -64,6 +64,7 @@ public:
   [[nodiscard]] std::optional<double> operator()(std::string const& agent, vocabulary::plan p,
                                                  vocabulary::task t) const;
   [[nodiscard]] std::vector<std::string> const& agents() const { return table_.agents; }
+  [[nodiscard]] utility_table const& table() const { return table_; }
 
 private:
   utility_table table_;

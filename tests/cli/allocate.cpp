@@ -233,7 +233,8 @@ TEST_F(rota_allocate, no_valid_allocation_is_exit_1_with_a_reason) {
   EXPECT_EQ(reason(head, false), "SoccerPlay: it needs at least 2 agents, and there are 0");
   EXPECT_EQ(reason(head + "r1,,1,1\nr2,,1,1\n", false), "SoccerPlay: 0 agents can take on Attack, which needs 1..1");
   EXPECT_EQ(reason(head + "r1,1,1,\nr2,1,1,\nr3,,,\n", true), "SoccerPlay: r3 can take on no task and may not idle");
-  EXPECT_EQ(reason(head + "r1,-5,1,\nr2,-5,1,\n", false), "SoccerPlay: its utility is at most -4, below 0");
+  EXPECT_EQ(reason(head + "r1,-5,1,\nr2,-5,1,\n", false),
+            "SoccerPlay: its utility is at most -4, below 0 (costs are written as they are, with --minimise)");
   EXPECT_EQ(reason(head + "a,1,1,1\nb,1,1,1\nc,1,1,1\nd,1,1,1\ne,1,1,1\nf,1,1,1\n", true),
             "SoccerPlay: nobody may idle, there are 6 agents, and it has room for 5");
 }
