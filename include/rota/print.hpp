@@ -1,12 +1,13 @@
 #pragma once
 /// @file
 /// `std::cout << value` for every value of this library that has words: names, atoms, sets, events, times, allocations,
-/// refusals, reasons. Never in the umbrella, since deciding needs no streams.
+/// refusals, reasons, messages, decisions. Never in the umbrella, since deciding needs no streams.
 
 #include <rota/algebra/print.hpp>
 #include <rota/allocation/print.hpp>
 #include <rota/core/print.hpp>
 #include <rota/search/print.hpp>
+#include <rota/team/print.hpp>
 
 #include <concepts>
 #include <ostream>

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string_view>
+#include <vector>
 
 namespace parts_test {
 
@@ -179,6 +182,13 @@ TEST(playbook, finds_the_attack_task_and_refuses_plans_that_are_none) {
   s.tasks.clear();
   EXPECT_FALSE(make_playbook({1}, {s}));
   EXPECT_FALSE(make_playbook({1}, {}));
+}
+
+TEST(happenings, each_has_words_of_its_own) {
+  std::set<std::string_view> words;
+  auto const count = static_cast<std::size_t>(happening::reign_ended) + 1;
+  for (std::size_t i = 0; i < count; ++i) words.insert(to_string(static_cast<happening>(i)));
+  EXPECT_EQ(words.size(), count);
 }
 
 TEST(statistics, percentiles_are_nearest_ranks) {

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <rota/model/allocation.hpp>
+#include <rota/print.hpp>
 
 #include <rapidcheck.h>
 
 #include <array>
 #include <cstdint>
-#include <ostream>
 #include <vector>
 
 /// A vocabulary small enough that random names collide all the time.
@@ -23,25 +22,6 @@ using event = rota::event<atom>;
 using allocation = rota::allocation<soccer>;
 
 constexpr soccer::agent agent(int n) { return static_cast<soccer::agent>(n); }
-
-namespace rota {
-inline std::ostream& operator<<(std::ostream& os, in<soccer> const& x) {
-  return os << "In(" << int(x.agent) << ", p" << int(x.plan) << ", t" << int(x.task) << ")";
-}
-template <class T>
-std::ostream& operator<<(std::ostream& os, atom_set<T> const& c) {
-  os << "{";
-  for (auto const& x : c) os << " " << x;
-  return os << " }";
-}
-template <class T>
-std::ostream& operator<<(std::ostream& os, rota::event<T> const& e) {
-  return os << "(" << e.additions() << ", " << e.subtractions() << ")";
-}
-inline std::ostream& operator<<(std::ostream& os, allocation<soccer> const& c) {
-  return os << "type " << int(c.type) << " " << c.atoms;
-}
-}  // namespace rota
 
 /// An atom about one of `agents` robots.
 inline rc::Gen<atom> any_atom(int agents) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace rota::sim {
 
@@ -21,6 +22,12 @@ enum class happening : unsigned char {
   reign_began,  ///< it leads from now on: it has just `detected` a conflict, or it answers a smaller claim
   reign_ended   ///< it leads no more; `superseded` if it obeys a greater claim instead
 };
+
+[[nodiscard]] constexpr std::string_view to_string(happening h) noexcept {
+  constexpr std::string_view words[] = {"entered",   "deliberated", "heard-plan",  "heard-claim",
+                                        "said-plan", "said-claim",  "reign-began", "reign-ended"};
+  return words[static_cast<std::size_t>(h)];
+}
 
 /// One record of the log that an observer sees, in order of simulated time. Valid during the call only: copy what you need.
 struct log_record {

@@ -1,0 +1,184 @@
+#pragma once
+/// @file
+/// Text for messages, beliefs and decisions, in the paper's notation. A header of its own, since deciding needs no strings.
+/// `name(id)` turns agents, plan types, plans, tasks and states into strings; see `default_names`.
+
+#include <rota/algebra/print.hpp>
+#include <rota/core/print.hpp>
+#include <rota/search/print.hpp>
+#include <rota/team/conflict.hpp>
+#include <rota/team/decision.hpp>
+
+#include <cstddef>
+#include <string>
+#include <variant>
+
+namespace rota {
+
+[[nodiscard]] inline std::string to_string(message_case c) {
+  switch (c) {
+  case message_case::agreement: return "agreement";
+  case message_case::joined: return "joined";
+  case message_case::moved: return "moved";
+  case message_case::left: return "left";
+  }
+  return "?";
+}
+[[nodiscard]] inline std::string to_string(conflict_partner p) {
+  return p == conflict_partner::first ? "first" : "second";
+}
+[[nodiscard]] inline std::string to_string(verdict v) {
+  switch (v) {
+  case verdict::accepted: return "accepted";
+  case verdict::stale: return "stale";
+  case verdict::refused: return "refused";
+  }
+  return "?";
+}
+[[nodiscard]] inline std::string to_string(refusal r) {
+  switch (r) {
+  case refusal::none: return "nothing is wrong";
+  case refusal::own_id: return "it says that the receiver sent it";
+  case refusal::stranger: return "its sender, or an agent that it is about, is not in the roster";
+  case refusal::types_not_ascending: return "its plan types repeat or are out of order";
+  case refusal::unknown_task: return "the plan type has no such plan or task";
+  case refusal::not_executed: return "it claims a plan type that the receiver does not execute";
+  case refusal::malformed_allocation: return "its allocation gives an agent two tasks or mixes plans";
+  case refusal::foreign_stamp: return "its stamp is not its leader's, or not the one the claim had before";
+  case refusal::remaining_time: return "its remaining time is not positive or too long";
+  case refusal::resolution_off: return "the receiver takes no part in conflict resolution";
+  }
+  return "?";
+}
+[[nodiscard]] inline std::string to_string(claim_outcome o) {
+  switch (o) {
+  case claim_outcome::adopted: return "the claim is obeyed from now on";
+  case claim_outcome::revised: return "the claim has a newer version";
+  case claim_outcome::repeated: return "the claim says nothing new";
+  case claim_outcome::expired: return "the claim has already ended here";
+  case claim_outcome::outranked: return "a greater stamp is in force";
+  case claim_outcome::challenged: return "the receiver's stamp is greater, so it claims";
+  }
+  return "?";
+}
+[[nodiscard]] inline std::string to_string(decision_reason r) {
+  switch (r) {
+  case decision_reason::not_executing: return "the plan type is not executed";
+  case decision_reason::reallocated: return "another allocation was adopted";
+  case decision_reason::kept: return "the allocation stays";
+  case decision_reason::no_valid_allocation: return "no valid allocation was found";
+  case decision_reason::obeyed: return "a leader decides";
+  }
+  return "?";
+}
+
+/// Its number.
+[[nodiscard]] inline std::string to_string(incarnation i) { return std::to_string(i.value); }
+/// `incarnation:sequence`.
+[[nodiscard]] inline std::string to_string(message_number const& n) {
+  return to_string(n.incarnation) + ":" + std::to_string(n.sequence);
+}
+/// `(confidence, a)`.
+template <vocabulary V, class Names = default_names>
+[[nodiscard]] std::string to_string(claim_stamp<V> const& s, Names const& name = {}) {
+  return "(" + std::to_string(s.confidence) + ", " + name(s.id) + ")";
+}
+/// The triple `(p, t, z)`.
+template <vocabulary V, class Names = default_names>
+[[nodiscard]] std::string to_string(placement<V> const& p, Names const& name = {}) {
+  return "(" + name(p.plan) + ", " + name(p.task) + ", " + name(p.state) + ")";
+}
+/// `pt: (p, t, z)`, or `pt: no task`.
+template <vocabulary V, class Names = default_names>
+[[nodiscard]] std::string to_string(participation<V> const& p, Names const& name = {}) {
+  return name(p.type) + ": " + (p.place ? to_string(*p.place, name) : "no task");
+}
+/// `agent a, message 1:7: pt: (p, t, z), pt: no task`.
+template <vocabulary V, class Names = default_names>
+[[nodiscard]] std::string to_string(plan_message<V> const& m, Names const& name = {}) {
+  std::string out = "agent " + name(m.sender) + ", message " + to_string(m.number) + ": ";
+  if (m.types.empty()) return out + "executes no plan type";
+  for (auto const* p = m.types.begin(); p != m.types.end(); ++p)
+    out += (p == m.types.begin() ? "" : ", ") + to_string(*p, name);
+  return out;
+}
+/// `agent a, claim 1:3, version 2: pt: {In(a, p, t)}, stamp (0, a), 1.5 s left`.
+template <vocabulary V, class Names = default_names>
+[[nodiscard]] std::string to_string(claim<V> const& c, Names const& name = {}) {
+  return "agent " + name(c.leader) + ", claim " + to_string(message_number{c.incarnation, c.number}) + ", version " +
+         std::to_string(c.version) + ": " + name(c.type) + ": " + to_string(c.atoms, name) + ", stamp " +
+         to_string(c.stamp, name) + ", " + to_string(c.remaining) + " left";
+}
+/// The plan message or the claim.
+template <vocabulary V, class Names = default_names>
+[[nodiscard]] std::string to_string(std::variant<plan_message<V>, claim<V>> const& m, Names const& name = {}) {
+  if (auto const* plan = std::get_if<plan_message<V>>(&m)) return to_string(*plan, name);
+  if (auto const* bid = std::get_if<claim<V>>(&m)) return to_string(*bid, name);
+  return "?";
+}
+
+namespace detail {
+
+/// `1, 2, 3`.
+template <class Ids, class Names>
+[[nodiscard]] std::string listing(Ids const& ids, Names const& name) {
+  std::string out;
+  for (auto const& id : ids) out += (out.empty() ? "" : ", ") + name(id);
+  return out;
+}
+
+}  // namespace detail
+
+/// The event e of the change.
+template <vocabulary V, class Names = default_names>
+[[nodiscard]] std::string to_string(part_change<V> const& c, Names const& name = {}) {
+  return to_string(c.event(), name);
+}
+/// The allocation, and who takes part without a task.
+template <vocabulary V, class Names = default_names>
+[[nodiscard]] std::string to_string(belief<V> const& b, Names const& name = {}) {
+  small_vector<typename V::agent, 8> idle;
+  for (auto const& a : b.participants())
+    if (!b.part(a)) idle.push_back(a);
+  return to_string(b.atoms(), name) + (idle.empty() ? "" : ", without a task: " + detail::listing(idle, name));
+}
+
+/// Who rules, as a sentence without a full stop.
+template <vocabulary V, class Names = default_names>
+[[nodiscard]] std::string describe(authority<V> const& a, Names const& name = {}) {
+  if (!a.active()) return "nobody rules";
+  return (a.leading() ? "leads until " : "obeys agent " + name(a.current().leader) + " until ") + to_string(a.expiry());
+}
+
+/// What a message did, as a sentence without a full stop.
+template <vocabulary V, class Names = default_names>
+[[nodiscard]] std::string describe(reception<V> const& r, Names const& name = {}) {
+  std::string out = to_string(r.verdict);
+  if (r.verdict == verdict::refused) out += ": " + to_string(r.reason);
+  if (r.claim) out += ": " + to_string(*r.claim);
+  for (auto const& c : r.changes)
+    out += "; in " + name(c.type) + " agent " + name(c.part.agent) + " " + to_string(c.part.what()) + ": " +
+           to_string(c.part, name);
+  if (!r.imposed.empty()) out += "; imposed: " + to_string(r.imposed, name);
+  return out;
+}
+
+/// What a deliberation came to and why, as a sentence without a full stop.
+template <vocabulary V, class Names = default_names>
+[[nodiscard]] std::string describe(decision<V> const& d, Names const& name = {}) {
+  if (d.reason == decision_reason::not_executing)
+    return "plan type " + name(d.type) + " is not executed: " +
+           (d.executed.empty() ? "no plan type was entered" : "entered were " + detail::listing(d.executed, name));
+  bool const leads = d.search.has_value() && d.leader.has_value();
+  std::string out = d.search ? describe(*d.search, name) : to_string(d.reason);
+  if (!d.search && d.leader) out += ": agent " + name(*d.leader);
+  out += d.own ? "; own task: " + to_string(*d.own, name) : std::string("; no task of its own");
+  if (!d.deleted.empty()) out += "; silent agents were deleted: " + to_string(d.deleted, name);
+  if (d.reign_ended) out += "; a reign has ended";
+  if (d.cycles > 0) out += "; cycles completed: " + std::to_string(d.cycles);
+  if (d.detected) out += "; a loop with agent " + name(*d.detected) + " was detected";
+  if (leads) out += d.reign_began ? "; the robot claims authority" : "; the robot leads";
+  return out;
+}
+
+}  // namespace rota
