@@ -12,18 +12,18 @@
 
 namespace rota::dense {
 
-/// What a tree search asks about assignments.
+/// Answers the questions that a tree search asks about assignments.
 class tree_oracle {
 public:
-  /// The value of a complete assignment within all bounds, or nothing if it is not admissible. `sum` is its additive
-  /// utility over the instance; a value of at most `to_beat` is worth nothing, so the answer may be nothing as well.
+  /// The value of a complete assignment within all bounds; nothing if it is not valid. `sum` is its additive utility in the
+  /// instance. The search has no use for a value of at most `to_beat`: the answer may then be nothing, too.
   virtual std::optional<std::int64_t> leaf(std::span<slot const> assignment, std::int64_t sum,
                                            std::optional<std::int64_t> to_beat) = 0;
-  /// At least the value of every admissible completion of the prefix, or `no_bound`.
+  /// No valid completion of the prefix is worth more; `no_bound` if nothing is known.
   virtual std::int64_t bound(std::span<slot const> prefix, std::int64_t sum) = 0;
-  /// Whether no completion of the prefix is admissible.
+  /// True only if no completion of the prefix is valid.
   virtual bool hopeless(std::span<slot const> prefix) = 0;
-  /// As `leaf`, of an assignment that was left out: to see whether that was right.
+  /// As `leaf`, for an assignment in a subtree that a bound cut off: an audit compares its value with that bound.
   virtual std::optional<std::int64_t> probe(std::span<slot const> assignment, std::int64_t sum) {
     return leaf(assignment, sum, std::nullopt);
   }
@@ -32,58 +32,64 @@ protected:
   ~tree_oracle() = default;
 };
 
-/// Which part of the assignments a tree search has dealt with, and how. A search that is complete has dealt with all s^n.
+/// What became of the s^n assignments. A search that ends by itself, short of `tree_options::enough`, has covered all.
 struct tree_account {
-  std::uint64_t nodes = 0;   ///< placements tried
-  std::uint64_t leaves = 0;  ///< complete assignments asked about
-  std::uint64_t pairs = 0;  ///< subtrees left: an absent pair, a full slot, or lower bounds that cannot be met any more
-  std::uint64_t bounded = 0;   ///< subtrees left: nothing in them could be better
-  std::uint64_t hopeless = 0;  ///< subtrees left: nothing in them is admissible
-  std::uint64_t mirrored = 0;  ///< subtrees left: the same with interchangeable agents swapped
-  std::uint64_t covered = 0;   ///< how many assignments all these hold, modulo `modulus`
+  std::uint64_t nodes = 0;     ///< placements tried
+  std::uint64_t leaves = 0;    ///< complete assignments evaluated
+  std::uint64_t pairs = 0;     ///< subtrees skipped: a forbidden pair, a full slot, or a lower bound out of reach
+  std::uint64_t bounded = 0;   ///< subtrees skipped: nothing in them could be better
+  std::uint64_t hopeless = 0;  ///< subtrees skipped: nothing in them is valid
+  std::uint64_t mirrored = 0;  ///< subtrees skipped: equal to others with interchangeable agents swapped
+  std::uint64_t covered = 0;   ///< the number of assignments in all these, modulo `modulus`
 
   static constexpr std::uint64_t modulus = (std::uint64_t{1} << 61) - 1;  // a prime, so that no s^n is 0
 
   friend bool operator==(tree_account const&, tree_account const&) = default;
 };
 
-/// A bound that was less than the value of an assignment below it.
+/// A bound of the oracle that is too low, and an assignment that refutes it.
 struct refuted_bound {
-  std::span<slot const> assignment{};  ///< that assignment; it belongs to the solver, as that of an outcome
-  std::size_t depth = 0;               ///< the prefix is the first `depth` agents of the assignment
+  std::span<slot const> assignment{};  ///< a view of the solver's memory, as in an outcome
+  std::size_t depth = 0;               ///< the bound is that of its first `depth` agents
   std::int64_t bound = 0;
   std::int64_t value = 0;
 };
 
-/// What a tree search may use besides the instance and the oracle.
+/// What a tree search uses besides the instance and the oracle.
 struct tree_options {
-  work_limit limit{};              ///< steps: placements
-  std::int64_t enough = no_bound;  ///< no admissible assignment is worth more: the first of this value ends the search
-  std::span<row_index const> twin{};  ///< of each agent one before it that it is interchangeable with, or itself
-  std::span<slot const> known{};      ///< an admissible assignment: what is worth less is not looked for
-  std::int64_t known_value = 0;
-  bool audit = false;  ///< at each subtree left for its bound, try one assignment in it
+  work_limit limit{};                 ///< a step is a placement tried
+  std::int64_t enough = no_bound;     ///< no valid assignment is worth more: the search ends at the first of this value
+  std::span<row_index const> twin{};  ///< for each agent an earlier one that it is interchangeable with, or itself
+  std::span<slot const> known{};      ///< a valid assignment to begin with, or empty
+  std::int64_t known_value = 0;       ///< the value of `known`
+  bool audit = false;                 ///< evaluate one assignment in each subtree that a bound cuts off
 };
 
 /// What a tree search found.
 struct tree_outcome : outcome {
   tree_account account;
-  std::optional<refuted_bound> lie{};  ///< then nothing is proved: neither `status` nor `bound` can be relied on
+  std::optional<refuted_bound> lie{};  ///< if present, nothing is proved: `status` and `bound` rely on a wrong bound
 };
 
 namespace detail {
 class tree_search;
 }
 
-/// Depth-first branch and bound over agents in order, slots in order; iterative, O(n·s) memory.
+/// Finds the assignment of greatest value by depth-first branch and bound, for any value that an oracle computes.
 ///
-/// Leaves come in lexicographic order and only a strict improvement replaces the best: so of equally good assignments the
-/// lexicographically smallest is found. A subtree is left when its lower bounds cannot be filled any more, when nothing in it
-/// can be better than the best, when the oracle calls it hopeless, or when it is another one with interchangeable agents
-/// swapped: these take slots in ascending order. Every placement is a step of `work_limit`.
+/// Canonical: agents and slots are tried in order, and only a greater value replaces the best, so of equally good assignments
+/// the lexicographically smallest is found. The search skips a subtree if lower bounds of slots are out of reach, if its
+/// bound is no better than the best, if the oracle calls it hopeless, or if interchangeable agents would take slots in
+/// descending order.
+/// Certificate: `tree_outcome::account`; `covered` is s^n modulo `tree_account::modulus` if all assignments are accounted for.
+///
+/// Memory is reused. A copy of a solver begins with no memory; a move keeps it, and assignments that outcomes show stay valid.
+/// Complexity: s^n placements at worst, each O(s) and the oracle's answers; iterative, O(n·s) memory.
 class tree_solver {
 public:
-  /// Searches until done, until a leaf is worth `enough`, or until the limit is met. @pre everybody takes part
+  /// Searches until done, until an assignment is worth `options.enough`, or until the limit is met. If the oracle throws, so
+  /// does this, and the solver can be used again.
+  /// @pre the preconditions of `instance`; all agents take part; `known` is within all bounds
   tree_outcome solve(instance const& in, tree_oracle& oracle, tree_options const& options = {});
 
 private:

@@ -28,6 +28,8 @@ public:
     bound_[0] = oracle.bound({}, 0);
     if (oracle.hopeless({})) {
       leave(out.account.hopeless, 0, out);
+    } else if (!fillable(in, 0)) {
+      leave(out.account.pairs, 0, out);
     } else if (in.agents == 0) {
       consider_leaf(oracle, 0, out);
     } else {
@@ -64,7 +66,7 @@ private:
     }
   }
 
-  /// @return false if the limit was met
+  /// Tries placements until none is left. @return false if the limit was met
   bool descend(instance const& in, tree_oracle& oracle, tree_options const& options, tree_outcome& out) {
     auto const& limit = options.limit;
     for (std::size_t depth = 0;;) {
@@ -111,7 +113,7 @@ private:
     }
   }
 
-  /// Whether agent `depth` may be put into slot k now; if not, its subtree is accounted for.
+  /// Whether agent `depth` can go to slot k now; if not, accounts for the subtree.
   bool open(instance const& in, std::span<row_index const> twin, std::size_t depth, std::size_t k, tree_outcome& out) {
     if (!in.present(depth, k) || count_[k] >= in.bounds[k].upper) {
       leave(out.account.pairs, depth + 1, out);
@@ -138,7 +140,7 @@ private:
     }
     return product;
   }
-  /// What may still lie in the subtrees that were not entered.
+  /// No assignment is worth more: the bound of what an interrupted search has found or not entered.
   [[nodiscard]] std::int64_t frontier(std::size_t depth, tree_outcome const& out) const {
     std::int64_t most = found_ ? out.value : no_value;
     for (std::size_t d = 0; d <= depth; ++d)
@@ -152,7 +154,7 @@ private:
   }
   void undo(std::size_t a) { --count_[assignment_[a]]; }
 
-  /// Whether the agents from `first` on could still fill every lower bound and find a place, pair by pair and in number.
+  /// Whether the agents from `first` on are enough for all lower bounds, in each slot and in total, and not too many.
   [[nodiscard]] bool fillable(instance const& in, std::size_t first) const {
     std::size_t const left = in.agents - first;
     std::size_t needed = 0;
@@ -181,7 +183,7 @@ private:
     std::copy(assignment_.begin(), assignment_.end(), best_.begin());
   }
 
-  /// The value of an assignment must not exceed what was said of its first agents, up to `depth` of them.
+  /// Notes a lie if `value` exceeds the bound of the assignment's first agents, up to `depth` of them.
   void compare(std::span<slot const> assignment, std::int64_t value, std::size_t depth, tree_outcome& out) {
     if (value <= bound_[depth] || out.lie) return;
     depth = 0;
@@ -190,7 +192,7 @@ private:
     std::copy(assignment.begin(), assignment.end(), refuter_.begin());
   }
 
-  /// Completes the prefix somehow, where slots that still need agents come first.
+  /// Completes the prefix, slots that still need agents first, and compares its value with the bound.
   void audit(instance const& in, tree_oracle& oracle, std::size_t depth, std::int64_t sum, tree_outcome& out) {
     std::size_t a = depth;
     for (; a < in.agents; ++a) {
@@ -213,15 +215,15 @@ private:
   }
 
   std::size_t slots_ = 0;
-  bool found_ = false;  // `best_` holds an admissible assignment
-  bool known_ = false;  // the best so far was given, and an equal one may still come first in order
+  bool found_ = false;  // `best_` holds a valid assignment
+  bool known_ = false;  // `best_` is the caller's; an equally good one may precede it
   buffer<slot> assignment_;
   buffer<slot> best_;
   buffer<slot> refuter_;
   buffer<std::uint32_t> count_;
   buffer<slot> next_;
   buffer<std::int64_t> sum_;
-  buffer<std::int64_t> bound_;   // of the first d agents, none greater than the one before
+  buffer<std::int64_t> bound_;   // of the first d agents, descending
   buffer<std::uint64_t> below_;  // s^(n−d) modulo the modulus
   buffer<std::uint32_t> able_;   // [a·s]: how many agents from a on may take each slot
 };
