@@ -1,0 +1,252 @@
+#pragma once
+/// @file
+/// Messages as bytes, the same on every machine. docs/protocol.md shows them byte by byte.
+
+#include <rota/core/result.hpp>
+#include <rota/team/detail/bytes.hpp>
+#include <rota/team/message.hpp>
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <variant>
+
+namespace rota {
+
+/// The version of the form. A receiver refuses every other one whole.
+inline constexpr std::uint8_t wire_version = 1;
+
+/// No message has more: so a receiver's buffers and time are bounded whatever arrives.
+inline constexpr std::size_t most_wire_types = 64;
+inline constexpr std::size_t most_wire_atoms = 256;
+
+/// Why bytes are no message, or a message cannot become bytes.
+enum class wire_fault : unsigned char {
+  no_room,        ///< encoding: the buffer is too small
+  too_many,       ///< more types or atoms than `most_wire_types`, `most_wire_atoms`
+  unequal_ages,   ///< encoding: a claim with more or fewer ages than atoms
+  mixed_plans,    ///< encoding: a claim whose atoms are of two plans
+  negative_time,  ///< encoding: a remaining time or an age below 0
+  foreign,        ///< the bytes do not begin as rota's do
+  version,        ///< another version of the form
+  cut_short,      ///< the message ends too early
+  too_long,       ///< bytes follow after its end
+  checksum,       ///< a bit was flipped on the way
+  not_canonical,  ///< a number in more bytes than it needs, an unknown flag, or atoms out of order
+  out_of_range    ///< a number that its identifier or field cannot hold
+};
+
+/// How an identifier becomes a number, and back: for enumerations, integers, and `strong_id` of them. Specialise it for
+/// yours: `static constexpr std::uint64_t most`, `to(id)`, `from(number)`, which is asked for numbers up to `most` only.
+template <class Id>
+struct wire_id;
+
+template <class Id>
+  requires std::is_enum_v<Id> || std::integral<Id>
+struct wire_id<Id> {
+  using rep = typename std::conditional_t<std::is_enum_v<Id>, std::underlying_type<Id>, std::type_identity<Id>>::type;
+  static constexpr std::uint64_t most = (std::numeric_limits<std::make_unsigned_t<rep>>::max)();
+  [[nodiscard]] static constexpr std::uint64_t to(Id id) noexcept {
+    if constexpr (std::is_signed_v<rep>) {
+      return detail::zigzag(static_cast<std::int64_t>(id));
+    } else {
+      return static_cast<std::uint64_t>(id);
+    }
+  }
+  [[nodiscard]] static constexpr Id from(std::uint64_t x) noexcept {
+    if constexpr (std::is_signed_v<rep>) {
+      return static_cast<Id>(detail::unzigzag(x));
+    } else {
+      return static_cast<Id>(x);
+    }
+  }
+};
+template <class Tag, class Rep>
+struct wire_id<strong_id<Tag, Rep>> {
+  static constexpr std::uint64_t most = wire_id<Rep>::most;
+  [[nodiscard]] static constexpr std::uint64_t to(strong_id<Tag, Rep> id) noexcept {
+    return wire_id<Rep>::to(id.value);
+  }
+  [[nodiscard]] static constexpr strong_id<Tag, Rep> from(std::uint64_t x) noexcept { return {wire_id<Rep>::from(x)}; }
+};
+
+namespace detail {
+
+inline constexpr std::uint8_t wire_mark = 0xa0;  // the upper half of the first byte; the lower: version·2 + kind
+inline constexpr std::uint8_t wire_claim = 1;    // kind; a plan message is 0
+enum wire_flag : std::uint8_t { has_place = 1, has_fingerprint = 2 };
+
+template <class Id>
+constexpr void write(byte_writer& w, Id const& id) noexcept {
+  w.number(wire_id<Id>::to(id));
+}
+template <class Id>
+[[nodiscard]] constexpr Id read(byte_reader& r) noexcept {
+  return wire_id<Id>::from(r.number(wire_id<Id>::most));
+}
+
+template <vocabulary V>
+[[nodiscard]] result<std::size_t, wire_fault> finish(byte_writer& w, std::span<std::byte> out) noexcept {
+  if (w.fits()) w.fixed32(crc32(out.first(w.size())));
+  if (!w.fits()) return refused{wire_fault::no_room};
+  return w.size();
+}
+
+[[nodiscard]] constexpr std::uint64_t round_up(duration d, std::int64_t unit) noexcept {
+  return static_cast<std::uint64_t>(d.ns / unit + (d.ns % unit != 0 ? 1 : 0));
+}
+
+}  // namespace detail
+
+/// Writes a plan message. @return how many bytes; nothing is promised about `out` if it is refused
+template <vocabulary V>
+[[nodiscard]] result<std::size_t, wire_fault> encode(plan_message<V> const& m, std::span<std::byte> out) noexcept {
+  if (m.types.size() > most_wire_types) return refused{wire_fault::too_many};
+  detail::byte_writer w(out);
+  w.byte(detail::wire_mark | wire_version << 1);
+  detail::write(w, m.sender);
+  w.number(m.number.incarnation);
+  w.number(m.number.sequence);
+  w.number(m.types.size());
+  for (participation<V> const& p : m.types) {
+    detail::write(w, p.type);
+    w.byte(static_cast<std::uint8_t>((p.place ? detail::has_place : 0) |
+                                     (p.fingerprint ? detail::has_fingerprint : 0)));
+    w.number(p.claims_over);
+    if (p.place) {
+      detail::write(w, p.place->plan);
+      detail::write(w, p.place->task);
+      detail::write(w, p.place->state);
+    }
+    if (p.fingerprint) w.fixed32(*p.fingerprint);
+  }
+  return detail::finish<V>(w, out);
+}
+
+/// Writes a claim: its remaining time in microseconds, rounded down; ages in milliseconds, rounded up, since who is said to
+/// have lived longer ago than it did loses nothing but a moment.
+template <vocabulary V>
+[[nodiscard]] result<std::size_t, wire_fault> encode(claim<V> const& c, std::span<std::byte> out) noexcept {
+  if (c.atoms.size() > most_wire_atoms) return refused{wire_fault::too_many};
+  if (c.ages.size() != c.atoms.size()) return refused{wire_fault::unequal_ages};
+  if (c.remaining < duration{}) return refused{wire_fault::negative_time};
+  detail::byte_writer w(out);
+  w.byte(detail::wire_mark | wire_version << 1 | detail::wire_claim);
+  detail::write(w, c.type);
+  detail::write(w, c.leader);
+  w.number(c.incarnation);
+  w.number(c.number);
+  w.number(c.version);
+  w.number(c.stamp.confidence);
+  detail::write(w, c.stamp.id);
+  w.number(static_cast<std::uint64_t>(c.remaining.ns / 1000));
+  w.number(c.atoms.size());
+  if (!c.atoms.empty()) detail::write(w, c.atoms.begin()->plan);
+  for (std::size_t i = 0; i < c.atoms.size(); ++i) {
+    in<V> const& x = c.atoms.begin()[i];
+    if (!(x.plan == c.atoms.begin()->plan)) return refused{wire_fault::mixed_plans};
+    if (c.ages[i] < duration{}) return refused{wire_fault::negative_time};
+    detail::write(w, x.agent);
+    detail::write(w, x.task);
+    w.number(detail::round_up(c.ages[i], 1'000'000));
+  }
+  return detail::finish<V>(w, out);
+}
+
+/// Writes a message. At most 30 + 16·types and 50 + 16·atoms bytes, where identifiers and numbers are below 2^14; see
+/// docs/protocol.md for what usual ones take. Never allocates. O(bytes).
+template <vocabulary V>
+[[nodiscard]] result<std::size_t, wire_fault> encode(message<V> const& m, std::span<std::byte> out) noexcept {
+  if (auto const* plan = std::get_if<plan_message<V>>(&m)) return encode(*plan, out);
+  return encode(*std::get_if<claim<V>>(&m), out);
+}
+
+namespace detail {
+
+template <vocabulary V>
+void read(byte_reader& r, plan_message<V>& m) {
+  m.sender = read<typename V::agent>(r);
+  m.number.incarnation = r.number();
+  m.number.sequence = r.number();
+  auto const count = r.number(most_wire_types);
+  for (std::uint64_t i = 0; i < count && r.wrong() == byte_reader::fault::none; ++i) {
+    participation<V> p;
+    p.type = read<typename V::plan_type>(r);
+    auto const flags = r.byte();
+    if ((flags & ~(has_place | has_fingerprint)) != 0) r.fail(byte_reader::fault::not_canonical);
+    p.claims_over = r.number();
+    if ((flags & has_place) != 0) {
+      placement<V> place;
+      place.plan = read<typename V::plan>(r);
+      place.task = read<typename V::task>(r);
+      place.state = read<typename V::state>(r);
+      p.place = place;
+    }
+    if ((flags & has_fingerprint) != 0) p.fingerprint = r.fixed32();
+    m.types.push_back(p);
+  }
+}
+
+template <vocabulary V>
+void read(byte_reader& r, claim<V>& c, small_vector<in<V>, 8>& atoms) {
+  constexpr auto longest = static_cast<std::uint64_t>((std::numeric_limits<std::int64_t>::max)());
+  c.type = read<typename V::plan_type>(r);
+  c.leader = read<typename V::agent>(r);
+  c.incarnation = r.number();
+  c.number = r.number();
+  c.version = r.number();
+  c.stamp.confidence = static_cast<std::uint32_t>(r.number((std::numeric_limits<std::uint32_t>::max)()));
+  c.stamp.id = read<typename V::agent>(r);
+  c.remaining = microseconds(static_cast<std::int64_t>(r.number(longest / 1000)));
+  auto const count = r.number(most_wire_atoms);
+  auto const plan = count != 0 ? read<typename V::plan>(r) : typename V::plan{};
+  for (std::uint64_t i = 0; i < count && r.wrong() == byte_reader::fault::none; ++i) {
+    in<V> x;
+    x.agent = read<typename V::agent>(r);
+    x.plan = plan;
+    x.task = read<typename V::task>(r);
+    if (!atoms.empty() && !(atoms.back() < x)) r.fail(byte_reader::fault::not_canonical);
+    atoms.push_back(x);
+    c.ages.push_back(milliseconds(static_cast<std::int64_t>(r.number(longest / 1'000'000))));
+  }
+}
+
+}  // namespace detail
+
+/// Reads a message, whole or not at all. Each message has one form, so encode ∘ decode is the identity on bytes.
+///
+/// What it says is still hostile: `robot::receive` judges it. Allocates only for more than 4 types or 8 atoms. O(bytes).
+template <vocabulary V>
+[[nodiscard]] result<message<V>, wire_fault> decode(std::span<std::byte const> bytes) {
+  using fault = detail::byte_reader::fault;
+  constexpr std::size_t tail = 4;
+  if (bytes.empty()) return refused{wire_fault::cut_short};
+  auto const first = static_cast<std::uint8_t>(bytes[0]);
+  if ((first & 0xf0) != detail::wire_mark) return refused{wire_fault::foreign};
+  if ((first & 0x0f) >> 1 != wire_version) return refused{wire_fault::version};
+  if (bytes.size() <= tail) return refused{wire_fault::cut_short};
+  detail::byte_reader r(bytes.subspan(1, bytes.size() - 1 - tail));
+  message<V> m;
+  if ((first & 1) == detail::wire_claim) {
+    small_vector<in<V>, 8> atoms;
+    claim<V> c;
+    detail::read<V>(r, c, atoms);
+    if (r.wrong() == fault::none) c.atoms = allocation_atoms<V>::from_ascending(std::move(atoms));
+    m = std::move(c);
+  } else {
+    detail::read<V>(r, *std::get_if<plan_message<V>>(&m));
+  }
+  detail::byte_reader sum(bytes.last(tail));
+  // A message that lost its end may fail in many ways, the checksum among them: what was read says which.
+  if (r.wrong() == fault::cut_short) return refused{wire_fault::cut_short};
+  if (sum.fixed32() != detail::crc32(bytes.first(bytes.size() - tail)))
+    return refused{r.wrong() == fault::none && r.left() != 0 ? wire_fault::too_long : wire_fault::checksum};
+  if (r.wrong() == fault::not_canonical) return refused{wire_fault::not_canonical};
+  if (r.wrong() == fault::out_of_range) return refused{wire_fault::out_of_range};
+  if (r.left() != 0) return refused{wire_fault::too_long};
+  return m;
+}
+
+}  // namespace rota
