@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <compare>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <utility>
 
 namespace rota {
 
@@ -19,20 +21,40 @@ enum class claim_outcome : unsigned char {
   challenged  ///< nobody rules and the receiver's own stamp is greater: it answers with a claim, once for each claim
 };
 
+/// What hearing a claim did, and whether it was news.
+struct heard_claim {
+  claim_outcome outcome{};
+  bool fresh = false;  ///< no copy of it with as little time left was heard before
+
+  friend bool operator==(heard_claim, heard_claim) = default;
+};
+
 /// One robot's view of who rules one plan type: nobody, itself, or the leader that it obeys (section 4, the bully algorithm).
 ///
+/// It remembers the last claim of every leader it has heard, and when that claim ends. A leader that gives way to a greater
+/// one, or that the robot stops obeying, is not forgotten: if its claim is heard again and is still in force, it is obeyed
+/// again once nobody greater rules.
+///
 /// Invariants, whatever is lost, duplicated, reordered or delayed: the robot obeys at most one leader; while it obeys, it
-/// turns to no smaller stamp; copies of one claim end at the earliest end that any of them names; a claim that has ended is
-/// never obeyed again; a claim is answered by at most one reign. Hence a reign ends at every follower no later than at its
-/// leader plus the greatest message delay, and a delayed copy prolongs nothing.
+/// turns to no smaller stamp; a claim that has ended is never obeyed again; a claim is answered at most once. Copies of a
+/// claim that are delayed by at most `max_delay` end at the earliest end that any of them names; no copy ends a reign more
+/// than `max_delay` before the end that the first one named, so a copy with a corrupt time cannot end it at once.
+/// Hence a reign ends at every follower no later than at its leader plus the greatest message delay.
 template <vocabulary V = runtime_vocabulary>
 class authority {
 public:
   using agent_id = typename V::agent;
 
+  /// Identifies a claim of one leader; ordered by age.
+  struct identity {
+    rota::incarnation incarnation{};
+    std::uint64_t number = 0;
+    friend auto operator<=>(identity const&, identity const&) = default;
+  };
+
   [[nodiscard]] bool leading() const noexcept { return phase_ == phase::leading; }
   [[nodiscard]] bool obeying() const noexcept { return phase_ == phase::obeying; }
-  [[nodiscard]] bool active() const noexcept { return leading() || obeying(); }
+  [[nodiscard]] bool active() const noexcept { return phase_ != phase::none; }
   /// The claim in force: the robot's own, or the one it obeys. @pre `active()`
   [[nodiscard]] claim<V> const& current() const& noexcept {
     ROTA_ASSERT(active());
@@ -45,77 +67,99 @@ public:
     return expiry_;
   }
 
-  /// Begins to lead. The robot's claim gets its next number and is first due at `due`. @pre `!leading()`
+  /// Begins to lead with claim number `number`, which is first due at `due`. @pre `!leading()`; numbers grow
   void lead(typename V::plan_type type, allocation_atoms<V> atoms, claim_stamp<V> mine, rota::incarnation incarnation,
-            instant now, instant due, duration reign) {
+            std::uint64_t number, instant now, instant due, instant expiry) {
     ROTA_ASSERT(!leading());
-    supersede();
-    claim_ = {type, std::move(atoms), mine, mine.id, incarnation, ++numbers_, 1, reign};
+    claim_ = {type, std::move(atoms), mine, mine.id, incarnation, number, 1};
     phase_ = phase::leading;
-    expiry_ = now + reign;
+    began_ = now;
+    expiry_ = expiry;
     next_repeat_ = due;
     said_ = false;
   }
 
-  /// Whether c has the identity of the claim in force and another stamp. The stamp of a claim never changes, so such a
-  /// message is forged or faulty.
+  /// Whether c has the identity of the claim in force and says something else: another stamp, or another allocation in the
+  /// same version. The stamp of a claim never changes, nor does a version, so such a message is a forgery or a fault.
   [[nodiscard]] bool contradicts(claim<V> const& c) const {
-    return active() && claim_.leader == c.leader && identity_of(claim_) == identity_of(c) && claim_.stamp != c.stamp;
+    if (!active() || !(claim_.leader == c.leader) || identity_of(claim_) != identity_of(c)) return false;
+    return claim_.stamp != c.stamp || (claim_.version == c.version && claim_.atoms != c.atoms);
+  }
+  /// The last claim of this leader that was heard, if any is remembered.
+  [[nodiscard]] std::optional<identity> last_heard(agent_id leader) const {
+    auto const* const k = find(leader);
+    return k ? std::optional{k->last} : std::nullopt;
+  }
+  /// The version of the claim in force, if it is c's.
+  [[nodiscard]] std::optional<std::uint64_t> version_of(claim<V> const& c) const {
+    if (!active() || !(claim_.leader == c.leader) || identity_of(claim_) != identity_of(c)) return std::nullopt;
+    return claim_.version;
   }
 
-  /// Takes in a claim that is well-formed and from somebody else. `mine` is the stamp that the robot's own claim would have.
-  /// @pre `!contradicts(c)`
-  claim_outcome hear(claim<V> const& c, claim_stamp<V> const& mine, instant now) {
-    if (leading() && c.stamp < claim_.stamp) {
-      next_repeat_ = (std::min)(next_repeat_, now);
-      return claim_outcome::outranked;
+  /// Hears a claim that is well-formed and from somebody else. `mine` is the robot's own stamp, were it to claim now;
+  /// none if it would not. @pre `!contradicts(c)`
+  heard_claim hear(claim<V> const& c, std::optional<claim_stamp<V>> const& mine, instant now, duration max_delay) {
+    known& k = remember(c.leader);
+    auto const id = identity_of(c);
+    auto const end = now + c.remaining;
+    if (id < k.last) return {claim_outcome::expired};
+    bool const fresh = id > k.last || c.remaining < k.least;
+    if (id > k.last) {
+      k = {c.leader, id, c.stamp, end, end - max_delay, never_heard, c.remaining};
+      if (obeying() && claim_.leader == c.leader) phase_ = phase::none;  // a leader that claims anew has ended the last one
+    } else {
+      k.expiry = (std::max)(k.earliest, (std::min)(k.expiry, end));
+      k.least = (std::min)(k.least, c.remaining);
     }
-    if (auto const* last = ended(c.leader); last && identity_of(c) <= *last) return claim_outcome::expired;
-    if (phase_ != phase::none && claim_.leader == c.leader) {
-      identity const current = identity_of(claim_);
-      if (identity_of(c) < current) return claim_outcome::expired;
-      if (identity_of(c) == current) {
-        expiry_ = (std::min)(expiry_, now + c.remaining);
-        bool const again = phase_ == phase::released;
-        bool const newer = c.version > claim_.version;
-        phase_ = phase::obeying;
-        if (newer) claim_ = c;
-        return again ? claim_outcome::adopted : newer ? claim_outcome::revised : claim_outcome::repeated;
-      }
+    if (k.over || now >= k.expiry) {
+      if (obeying() && claim_.leader == c.leader) phase_ = phase::none;
+      if (!k.over) k.late = now;
+      return {claim_outcome::expired};
     }
-    if (active() && c.stamp < claim_.stamp) return claim_outcome::outranked;
-    if (!active() && c.stamp < mine) {
-      bury(c.leader, identity_of(c));
-      return claim_outcome::challenged;
-    }
-    supersede();
-    claim_ = c;
-    phase_ = phase::obeying;
-    expiry_ = now + c.remaining;
-    return claim_outcome::adopted;
+    return {judge(c, k, mine, now), fresh};
   }
 
-  /// Ends the claim in force if its time is over. True if the robot led or obeyed until now.
-  bool expire(instant now) {
-    if (phase_ == phase::none || now < expiry_) return false;
-    bool const was_active = active();
-    end();
-    return was_active;
-  }
-  /// Ends the claim in force, if any. No copy of it will be obeyed again.
-  void end() {
-    if (phase_ == phase::none) return;
-    bury(claim_.leader, identity_of(claim_));
+  /// The leader of these claims says that all but number `leads` up to `made` are over. Whether the one in force ended so.
+  bool hear_over(agent_id leader, rota::incarnation incarnation, std::uint64_t made, std::uint64_t leads, instant now,
+                 duration max_delay) {
+    known* const k = find(leader);
+    if (!k || k->over) return false;
+    if (k->last.incarnation > incarnation) {  // of a life that it does not live: a forgery, unless the message is late
+      if (now - k->expiry > max_delay) known_.erase(k);
+      return false;
+    }
+    if (k->last.incarnation == incarnation && (k->last.number > made || k->last.number == leads)) return false;
+    k->over = true;
+    if (!obeying() || !(claim_.leader == leader)) return false;
     phase_ = phase::none;
-  }
-  /// Stops obeying: the leader seems to be gone, or the robot itself leaves. If it hears the claim again before it expires,
-  /// it obeys again.
-  void release() {
-    if (obeying()) phase_ = phase::released;
+    return true;
   }
 
-  /// Takes in what the leader has deliberated. A changed allocation is a new version. The claim is due at once if it is new
-  /// or was never sent. @pre `leading()`
+  /// When the last claim of somebody with a stamp greater than `mine` was heard although it had ended here: one of the
+  /// clocks has jumped, and its leader still rules. An instant before all others if there is none.
+  [[nodiscard]] instant heard_late(claim_stamp<V> const& mine) const noexcept {
+    instant latest = never_heard;
+    for (known const& k : known_)
+      if (mine < k.stamp) latest = (std::max)(latest, k.late);
+    return latest;
+  }
+
+  /// Ends the claim in force if its time is over. Whether it did.
+  bool expire(instant now) {
+    if (!active() || now < expiry_) return false;
+    phase_ = phase::none;
+    return true;
+  }
+  /// Stops obeying, since the leader is gone or the robot itself leaves, or gives up its own claim. An obeyed claim that is
+  /// heard again before it ends is obeyed again.
+  void release() { phase_ = phase::none; }
+  /// Forgets what it knows of a leader that was not heard for so long that it may begin a new life with any number.
+  void forget(agent_id leader) {
+    if (known* const k = find(leader); k && !(obeying() && claim_.leader == leader)) known_.erase(k);
+  }
+
+  /// The leader has deliberated: a change is a new version. That, and a claim never sent, is due at once.
+  /// @pre `leading()`
   void revise(allocation_atoms<V> const& atoms, instant now) {
     ROTA_ASSERT(leading());
     if (claim_.atoms == atoms && said_) return;
@@ -124,58 +168,97 @@ public:
     next_repeat_ = now;
   }
 
-  /// When the leader has to send its claim next; `never` for everybody else.
+  /// When the leader has to speak next; `never` for everybody else.
   [[nodiscard]] instant next_due() const noexcept { return leading() ? next_repeat_ : never; }
-  /// The leader's claim if it is due, with the remaining time filled in. O(|claim|).
-  [[nodiscard]] std::optional<claim<V>> next_claim(instant now, duration period) {
+  /// The leader's claim if it is due, with the remaining time filled in; `ages` is left to the caller. O(|claim|).
+  [[nodiscard]] std::optional<claim<V>> next_claim(instant now, duration period, duration opening_period,
+                                                   duration opening) {
     if (!leading() || now < next_repeat_ || now >= expiry_) return std::nullopt;
-    next_repeat_ = now + period;
+    next_repeat_ = now + (now - began_ < opening ? (std::min)(opening_period, period) : period);
     said_ = true;
     claim_.remaining = expiry_ - now;
     return claim_;
   }
 
+  /// Moves everything it remembers by d: the clock has been set.
+  void shift(duration d) noexcept {
+    expiry_ = expiry_ + d;
+    began_ = began_ + d;
+    if (next_repeat_ != never) next_repeat_ = next_repeat_ + d;
+    for (known& k : known_) {
+      k.expiry = k.expiry + d;
+      k.earliest = k.earliest + d;
+      if (k.late != never_heard) k.late = k.late + d;
+    }
+  }
+
   friend bool operator==(authority const&, authority const&) = default;
 
 private:
-  enum class phase : unsigned char { none, leading, obeying, released };
+  enum class phase : unsigned char { none, leading, obeying };
 
-  /// Orders the claims of one leader.
-  struct identity {
-    rota::incarnation incarnation{};
-    std::uint64_t number = 0;
-    friend auto operator<=>(identity const&, identity const&) = default;
-  };
-  /// The greatest identity among the claims of one leader that have ended here.
-  struct grave {
+  static constexpr instant never_heard{(std::numeric_limits<std::int64_t>::min)()};
+
+  /// The last claim heard of one leader.
+  struct known {
     agent_id leader{};
-    identity last;
-    friend bool operator==(grave const&, grave const&) = default;
+    identity last{};
+    claim_stamp<V> stamp{};
+    instant expiry{};            // the earliest end that a copy named, but not before
+    instant earliest{};          // … this: the end that the first copy named less the greatest delay
+    instant late = never_heard;  // when a copy was last heard after that end
+    duration least{};            // the least time left in any copy
+    bool answered = false;       // this robot has claimed against it
+    bool over = false;           // its leader says that it is
+    friend bool operator==(known const&, known const&) = default;
   };
 
-  /// Ends the claim in force for good. A released claim is not buried: it may still be in force elsewhere.
-  void supersede() {
-    if (active()) end();
+  /// What a claim in force means for who rules.
+  claim_outcome judge(claim<V> const& c, known& k, std::optional<claim_stamp<V>> const& mine, instant now) {
+    if (active() && claim_.leader == c.leader) {
+      expiry_ = k.expiry;
+      if (c.version <= claim_.version) return claim_outcome::repeated;
+      claim_ = c;
+      return claim_outcome::revised;
+    }
+    if (active() && c.stamp < claim_.stamp) {
+      if (leading()) next_repeat_ = (std::min)(next_repeat_, now);
+      return claim_outcome::outranked;
+    }
+    if (!active() && mine && c.stamp < *mine && !k.answered) {
+      k.answered = true;
+      return claim_outcome::challenged;
+    }
+    claim_ = c;
+    phase_ = phase::obeying;
+    expiry_ = k.expiry;
+    return claim_outcome::adopted;
   }
+
   static identity identity_of(claim<V> const& c) { return {c.incarnation, c.number}; }
-  static bool before(grave const& g, agent_id b) { return g.leader < b; }
-  identity const* ended(agent_id leader) const {
-    auto const* where = std::lower_bound(graves_.begin(), graves_.end(), leader, before);
-    return where != graves_.end() && where->leader == leader ? &where->last : nullptr;
+  known const* find(agent_id leader) const {
+    auto const* const where = lower(leader);
+    return where != known_.end() && where->leader == leader ? where : nullptr;
   }
-  void bury(agent_id leader, identity last) {
-    auto* where = std::lower_bound(graves_.begin(), graves_.end(), leader, before);
-    if (where == graves_.end() || !(where->leader == leader)) where = graves_.insert(where, {leader, {}});
-    where->last = (std::max)(where->last, last);
+  known* find(agent_id leader) { return const_cast<known*>(std::as_const(*this).find(leader)); }
+  known const* lower(agent_id leader) const {
+    return std::lower_bound(known_.begin(), known_.end(), leader,
+                            [](known const& k, agent_id key) { return k.leader < key; });
+  }
+  known& remember(agent_id leader) {
+    if (known* const k = find(leader)) return *k;
+    known fresh;
+    fresh.leader = leader;
+    return *known_.insert(lower(leader), fresh);
   }
 
   phase phase_ = phase::none;
   claim<V> claim_;
   instant expiry_{};
+  instant began_{};
   instant next_repeat_{};
   bool said_ = false;              // the claim was sent at least once
-  std::uint64_t numbers_ = 0;      // claims made by this robot
-  small_vector<grave, 4> graves_;  // ascending by leader; at most one per agent of the roster
+  small_vector<known, 4> known_;   // ascending by leader; at most one per agent of the roster
 };
 
 }  // namespace rota

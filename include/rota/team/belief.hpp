@@ -1,12 +1,14 @@
 #pragma once
 
 #include <rota/algebra/apply.hpp>
+#include <rota/algebra/fingerprint.hpp>
 #include <rota/team/message.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace rota {
 
@@ -46,8 +48,10 @@ struct part_change {
   friend bool operator==(part_change const&, part_change const&) = default;
 };
 
-/// What one robot believes about one plan type: who takes part, who does what, and when each was last heard.
+/// What one robot believes about one plan type: who takes part, who does what, what each said last, and when.
 ///
+/// What a sender said and what the robot believes of it differ while they disagree: reallocation changes the belief, and
+/// never what was said.
 /// Class invariants: participants are strictly ascending; every atom is about a participant; an agent has at most one atom,
 /// its part. Apart from that the allocation may be invalid or mix plans while a conflict lasts.
 template <vocabulary V = runtime_vocabulary>
@@ -78,19 +82,40 @@ public:
     return records_[*at].heard;
   }
 
+  /// b's atom, as b said last: nothing if it said that it has none, or that it takes no part.
+  [[nodiscard]] std::optional<in<V>> said(agent_id b) const {
+    auto const at = find(b);
+    return at ? records_[*at].said : std::nullopt;
+  }
+  /// What everybody but `self` said last, and what `self` does: where a deliberation of `self` begins. So nothing that was
+  /// said on either side of an earlier deliberation is lost, and robots with equal beliefs come to agree.
+  [[nodiscard]] allocation_atoms<V> told(agent_id self) const {
+    small_vector<in<V>, 8> all;
+    for (std::size_t i = 0; i < who_.size(); ++i)
+      if (auto const& x = who_[i] == self ? part(self) : records_[i].said) all.push_back(*x);
+    return allocation_atoms<V>::from_ascending(std::move(all));
+  }
+  /// A digest of the allocation, to compare with another robot's.
+  [[nodiscard]] std::uint32_t fingerprint() const {
+    auto const all = fingerprint_of(atoms_).value;
+    return static_cast<std::uint32_t>(all ^ all >> 32);
+  }
+
   /// Notes a sign of life of b, and makes it a participant. O(n).
-  void admit(agent_id b, instant now) { admitted(b, now); }
+  void admit(agent_id b, instant heard) { admitted(b, heard); }
   /// Takes in what b says about itself: a sign of life, its part and its state. Looks b up once among the participants and
   /// once in the allocation. O(n).
   part_change<V> hear(agent_id b, std::optional<placement<V>> const& said, instant now) {
     record& r = admitted(b, now);
     if (said) r.state = said->state;
-    return place(b, atom_of(b, said));
+    r.said = atom_of(b, said);
+    return place(b, r.said);
   }
   /// As `hear` while a leader rules: the part stays as it is, and the state counts only if b says that it has this part.
   void hear_ruled(agent_id b, std::optional<placement<V>> const& said, instant now) {
     record& r = admitted(b, now);
-    if (said && part(b) == atom_of(b, said)) r.state = said->state;
+    r.said = atom_of(b, said);
+    if (said && part(b) == r.said) r.state = said->state;
   }
   /// Removes b from the participants and from the allocation. O(n).
   part_change<V> expel(agent_id b) {
@@ -104,6 +129,15 @@ public:
 
   /// Replaces the whole allocation. @pre at most one atom per agent, each of a participant
   void replace(allocation_atoms<V> const& atoms) { atoms_ = atoms; }
+  /// Replaces the whole allocation by a leader's, which counts as what everybody says. @pre as `replace`
+  void impose(allocation_atoms<V> const& atoms) {
+    atoms_ = atoms;
+    for (std::size_t i = 0; i < who_.size(); ++i) records_[i].said = part(who_[i]);
+  }
+  /// Moves all instants by d: the clock has been set.
+  void shift(duration d) noexcept {
+    for (record& r : records_) r.heard = r.heard + d;
+  }
   /// @pre `takes_part(b)`
   void set_state(agent_id b, typename V::state z) {
     auto const at = find(b);
@@ -117,6 +151,7 @@ private:
   struct record {
     typename V::state state{};
     instant heard{};
+    std::optional<in<V>> said{};
     friend bool operator==(record const&, record const&) = default;
   };
 
@@ -135,11 +170,11 @@ private:
     auto const at = where - who_.begin();
     if (where != who_.end() && *where == b) {
       record& r = records_[static_cast<std::size_t>(at)];
-      r.heard = now;
+      r.heard = (std::max)(r.heard, now);
       return r;
     }
     who_.insert(where, b);
-    return *records_.insert(records_.begin() + at, {{}, now});
+    return *records_.insert(records_.begin() + at, {{}, now, {}});
   }
   /// Gives b this part in place of the one it has.
   part_change<V> place(agent_id b, std::optional<in<V>> const& atom) {

@@ -13,13 +13,18 @@ namespace rota {
 /// Why a message was refused. A refused message changes nothing.
 enum class refusal : unsigned char {
   none,
-  own_id,                ///< it says that the receiver sent it
+  own_id,                ///< it says that the receiver sent it, in this life: an echo, or two robots with one id
+  own_former_life,       ///< … in a life before this one: an echo
+  own_later_life,        ///< … in a life after this one: this robot's incarnation was not obtained as it should
   stranger,              ///< its sender, or an agent that a claim is about, is not in the roster
+  too_many_types,        ///< a plan message of more than `robot::most_types` types
+  number_out_of_reach,   ///< a number that no genuine message can have by now: a flipped bit, or a forgery
   types_not_ascending,   ///< a plan message lists a type twice, or out of order
   unknown_task,          ///< the executed plan type has no such plan or task
   not_executed,          ///< a claim for a plan type that the receiver does not execute
-  malformed_allocation,  ///< a claim gives one agent two tasks, or mixes plans
+  malformed_allocation,  ///< a claim gives one agent two tasks, mixes plans, or has no age for each atom
   foreign_stamp,         ///< the stamp of a claim is not its leader's, or not the one this claim had before
+  foreign_claim,         ///< a plan message whose sender leads with a claim that it has not made
   remaining_time,        ///< the remaining time of a claim is not positive, or above `robot_options::max_reign`
   resolution_off         ///< a claim, and `robot_options::resolution` is off
 };
@@ -46,6 +51,11 @@ struct reception {
   small_vector<belief_change<V>, 1> changes;  ///< by a plan message: where the sender's part changed, ascending by type
   std::optional<claim_outcome> claim{};       ///< of an accepted claim
   event<in<V>> imposed;                       ///< what an accepted claim changed in the belief about its plan type
+  /// By a plan message with fingerprints: types in which the sender believes something else, about whomever.
+  small_vector<typename V::plan_type, 1> disagreements;
+  /// Whether it is news. Where not everybody hears everybody, whoever forwards each message that is news, and no other,
+  /// lets every message reach everybody and end: copies and disorder do no harm.
+  bool relay = false;
 };
 
 /// What a deliberation came to.
@@ -63,6 +73,7 @@ struct [[nodiscard]] decision {
   typename V::plan_type type{};  ///< the plan type that was asked about
   decision_reason reason = decision_reason::not_executing;
   std::optional<in<V>> own{};                   ///< what the robot itself has to do now
+  rota::event<in<V>> event;                     ///< e_r, what the robot changed in what it believed
   rota::event<in<V>> deleted;                   ///< what the deletion of silent agents took away before
   std::optional<reallocation<V>> search{};      ///< what was searched and found, and why; none if nothing was searched
   std::optional<typename V::agent> leader{};    ///< who rules the plan type now: the robot itself, another, or nobody
@@ -70,15 +81,9 @@ struct [[nodiscard]] decision {
   std::optional<typename V::agent> detected{};  ///< the sender of the n-th subsequent cycle, if the monitor fired
   bool reign_began = false;                     ///< the robot claims authority from now on
   bool reign_ended = false;                     ///< a reign has ended since the last deliberation
+  duration clock_set_back{};                    ///< by so much the robot's clock was set back since its last decision
   small_vector<typename V::plan_type, 4>
       executed;  ///< if `not_executing`: the types that the robot executes, ascending
-
-  /// e_r, what the search changed; empty if nothing changed or nothing was searched.
-  [[nodiscard]] rota::event<in<V>> const& event() const& noexcept { return search ? search->event : nothing; }
-  [[nodiscard]] rota::event<in<V>> event() && noexcept { return search ? std::move(search->event) : nothing; }
-
-private:
-  static constexpr rota::event<in<V>> nothing{};
 };
 
 /// Parameters of a robot; the defaults are the paper's.
@@ -88,8 +93,14 @@ struct robot_options {
   duration reign = seconds(2);        ///< how long a claim of this robot holds
   duration max_reign = seconds(2);    ///< claims with more time left are refused; at least `reign`
   duration message_period = milliseconds(100);
-  duration claim_period = milliseconds(100);  ///< how often a leader repeats an unchanged claim
+  duration change_period{};  ///< if positive, a change of what the robot does is said this soon after the last message
+  duration claim_period = milliseconds(100);   ///< how often a leader repeats an unchanged claim
+  duration opening = milliseconds(200);        ///< in the first so long of its reign it repeats it
+  duration opening_period = milliseconds(30);  ///< … this often
+  duration max_delay = milliseconds(500);      ///< no message is expected to be under way for longer
   duration silence = seconds(2);              ///< an agent that was not heard for longer is deleted
+  duration forget = seconds(30);  ///< an agent that was not heard for longer may begin a new life with any number
+  bool fingerprints = false;      ///< plan messages say what their sender believes of everybody, as four bytes
   instant first_message{};                    ///< the first slot of the grid of plan messages
   std::uint32_t confidence = 0;   ///< of this robot's claims: the greater confidence leads, then the greater id
   bool resolution = true;         ///< off: the robot detects loops, but neither claims nor obeys

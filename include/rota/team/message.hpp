@@ -34,7 +34,10 @@ struct placement {
 template <vocabulary V = runtime_vocabulary>
 struct participation {
   typename V::plan_type type{};
-  std::optional<placement<V>> place;
+  std::optional<placement<V>> place{};
+  std::uint64_t leads = 0;  ///< the number of the claim with which the sender leads this type; 0: it does not lead
+  /// Of the allocation that the sender believes in, if it says so: see `belief::fingerprint`.
+  std::optional<std::uint32_t> fingerprint{};
 
   friend bool operator==(participation const&, participation const&) = default;
 };
@@ -45,7 +48,8 @@ template <vocabulary V = runtime_vocabulary>
 struct plan_message {
   typename V::agent sender{};
   message_number number;
-  small_vector<participation<V>, 4> types;  ///< strictly ascending by type
+  std::uint64_t claims = 0;  ///< how many claims the sender has made in this life; all are over but those it `leads` with
+  small_vector<participation<V>, 4> types{};  ///< strictly ascending by type
 
   friend bool operator==(plan_message const&, plan_message const&) = default;
 };
@@ -65,7 +69,8 @@ struct claim_stamp {
 ///
 /// (leader, incarnation, number) identifies a claim; the version counts how often its allocation has changed. The leader
 /// wants agents that take part and have no atom to be idle. Robots share no clock, so a claim carries the time that its
-/// reign has left.
+/// reign has left. The leader passes on when it last heard whom the claim is about, since a claim is a sign of life of its
+/// leader only.
 template <vocabulary V = runtime_vocabulary>
 struct claim {
   typename V::plan_type type{};
@@ -75,7 +80,8 @@ struct claim {
   rota::incarnation incarnation{};
   std::uint64_t number = 0;
   std::uint64_t version = 0;
-  duration remaining;
+  duration remaining{};
+  small_vector<duration, 8> ages{};  ///< of each atom's agent, the time since its last sign of life; 0 for the leader
 
   friend bool operator==(claim const&, claim const&) = default;
 };

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -19,19 +20,27 @@ namespace rota {
 /// One robot of a team: what it believes about each plan type that it executes, and what it does about conflicts.
 ///
 /// A regular value: it owns no thread, clock, socket or pointer into the model, and may be copied, compared and restored.
-/// Time is a parameter and must not run backwards. A robot trusts nothing from outside: `receive` refuses a bad message as a
-/// whole and never throws of itself, and its memory is bounded by the roster and the plan types entered.
+/// Time is a parameter. If a call names an earlier instant than the one before, the clock has been set back: the robot then
+/// moves all instants that it remembers back as far, as if no time had passed, and the next decision says so. It cannot tell
+/// a clock that was set forward from a pause. A robot trusts nothing from outside: `receive` refuses a bad message as a whole
+/// and never throws of itself, and its memory is bounded by the roster and the plan types entered.
 ///
 /// Every 30 ms: `receive` what the radio brought, `deliberate` on each plan type, send every `next_message`.
-template <vocabulary V = runtime_vocabulary, class Monitor = cycle_monitor<V>>
+template <vocabulary V = runtime_vocabulary, class Monitor = conflict_monitor<V>>
 class robot {
 public:
   using agent_id = typename V::agent;
   using type_id = typename V::plan_type;
 
+  /// Within one life, no number of a message grows by more from one to the next.
+  static constexpr std::uint64_t most_jump = 1 << 16;
+  /// A plan message with more types is refused.
+  static constexpr std::size_t most_types = 64;
+
   /// `everybody`: all agents that may ever be heard of; messages of others are refused. It may list the robot itself.
   /// `life`: greater at each restart; see `incarnation` for where to get it.
-  /// @pre `life` is not 0; periods are positive; 0 < reign ≤ max_reign, or nobody would obey
+  /// @pre `life` is not 0; periods are positive, and no duration is above `longest`; 0 < reign ≤ max_reign, or nobody would
+  /// obey
   robot(agent_id self, std::span<agent_id const> everybody, rota::incarnation life, robot_options const& options = {})
       : self_(self),
         incarnation_(life),
@@ -41,7 +50,13 @@ public:
     ROTA_ASSERT(life.value > 0);
     ROTA_ASSERT(options.message_period > duration{} && options.claim_period > duration{});
     ROTA_ASSERT(options.reign > duration{} && options.reign <= options.max_reign);
+    for (duration d : {options.max_reign, options.message_period, options.claim_period, options.silence, options.forget,
+                       options.max_delay, options.pending_age})
+      ROTA_ASSERT(d >= duration{} && d <= longest);
   }
+
+  /// No duration of the options is longer, so that instants do not overflow.
+  static constexpr duration longest = seconds(100'000'000);
 
   [[nodiscard]] agent_id self() const noexcept { return self_; }
   [[nodiscard]] rota::incarnation incarnation() const noexcept { return incarnation_; }
@@ -53,6 +68,7 @@ public:
   /// Begins to execute a plan type, alone and without a task. False if the robot already executes it. O(plans · tasks).
   template <class Beliefs>
   bool enter(plan_type<V, Beliefs> const& pt, instant now) {
+    synchronise(now);
     auto where = std::lower_bound(tracks_.begin(), tracks_.end(), pt.id(),
                                   [](track const& t, type_id key) { return t.names.type() < key; });
     if (where == tracks_.end() || !(where->names.type() == pt.id())) {
@@ -65,6 +81,7 @@ public:
     where->monitor = Monitor(monitor_options{options_.cycles, options_.pending_age});
     where->believed = {};
     where->believed.admit(self_, now);
+    changed_ = true;
     return true;
   }
 
@@ -75,9 +92,11 @@ public:
     if (!t) return false;
     t->executing = false;
     t->lapsed = false;
+    t->blind = false;
     t->believed = {};
     t->monitor.clear();
-    t->rule.leading() ? t->rule.end() : t->rule.release();
+    t->rule.release();
+    changed_ = true;
     return true;
   }
 
@@ -106,30 +125,38 @@ public:
   /// Takes in a message. A refused or stale message changes nothing.
   reception<V> receive(message<V> const& m, instant now) {
     if (auto const* plan = std::get_if<plan_message<V>>(&m)) return receive(*plan, now);
-    if (auto const* bid = std::get_if<claim<V>>(&m)) return receive(*bid, now);
-    return {};
+    return receive(*std::get_if<claim<V>>(&m), now);
   }
 
   /// Takes in what a sender says about itself; it is trusted about nobody else. For each executed type this is one of the
   /// four cases of section 4. While somebody rules the type, the task in the message is ignored; coming and going counts.
   ///
-  /// Message numbers only grow: a sender that once sent a number out of reach stays unheard until it restarts with a greater
-  /// incarnation. Whether a message is genuine is for the transport to ensure.
+  /// Message numbers only grow, and by `most_jump` at most. A sender that was not heard for `robot_options::forget` may
+  /// begin a new life with any number. Whether a message is genuine is for the transport to ensure.
   /// O(types of the message + types known), and for each executed type two searches for the sender.
   reception<V> receive(plan_message<V> const& m, instant now) {
+    synchronise(now);
     auto* const sender = peers_.find(m.sender);
-    if (auto const reason = examine(m, sender != nullptr); reason != refusal::none) return dropped(reason);
-    if (m.number <= sender->last) return dropped();
+    if (auto const reason = examine(m, sender, now); reason != refusal::none) return dropped(reason);
+    if (!forgotten(*sender, now)) {
+      if (m.number <= sender->last) return dropped();
+    } else {
+      for (track& t : tracks_) t.rule.forget(m.sender);
+    }
     sender->last = m.number;
+    sender->heard = now;
     reception<V> r;
+    r.relay = true;
     auto const* said = m.types.begin();
     for (track& t : tracks_) {
       while (said != m.types.end() && said->type < t.names.type()) ++said;
+      bool const listed = said != m.types.end() && said->type == t.names.type();
+      if (t.rule.hear_over(m.sender, m.number.incarnation, m.claims, listed ? said->leads : 0, now, options_.max_delay))
+        t.normalise();
       if (!t.executing) continue;
       t.expire(now);
-      t.bury_former_life(m.sender, m.number.incarnation);
       part_change<V> change{m.sender};
-      if (said == m.types.end() || !(said->type == t.names.type())) {
+      if (!listed) {
         change = t.dismiss(m.sender);
       } else if (t.rule.active()) {
         t.believed.hear_ruled(m.sender, said->place, now);
@@ -139,14 +166,17 @@ public:
       }
       if (!t.rule.active()) t.monitor.on_message(change, now);
       if (!change.empty()) r.changes.push_back({t.names.type(), change});
+      if (listed && said->fingerprint && *said->fingerprint != digest_of(t)) r.disagreements.push_back(t.names.type());
     }
     return r;
   }
 
   /// Obeys a greater claim, answers a smaller one with its own, and drops a claim that has ended. A claim is authoritative:
-  /// each copy of the claim in force undoes what coming, going or silence has changed at this follower since.
+  /// each copy of the claim in force undoes what coming, going or silence has changed at this follower since; but it does not
+  /// bring back whom its leader has not heard for `robot_options::silence`.
   /// The leader judges whether its allocation is valid, under its own beliefs. O(|claim| log roster).
   reception<V> receive(claim<V> const& c, instant now) {
+    synchronise(now);
     auto const* const sender = peers_.find(c.leader);
     if (auto const reason = examine(c, sender != nullptr); reason != refusal::none) return dropped(reason);
     if (c.incarnation < sender->last.incarnation) return dropped();
@@ -154,17 +184,25 @@ public:
     t.expire(now);
     reception<V> r;
     bool const was_active = t.rule.active();
-    auto const outcome = t.rule.hear(c, my_stamp(), now);
-    r.claim = outcome;
-    if (outcome == claim_outcome::challenged) {
-      t.admit_all(c, now);
-      lead(t, now, now + options_.claim_period);  // a deliberation before that sends it at once
-    } else if (t.rule.obeying() && outcome != claim_outcome::outranked && outcome != claim_outcome::expired) {
+    auto const mine = t.blind ? std::nullopt : std::optional{stamp_of(t, now)};
+    auto const heard = t.rule.hear(c, mine, now, options_.max_delay);
+    r.claim = heard.outcome;
+    if (heard.outcome == claim_outcome::expired) {
+      if (was_active && !t.rule.active()) t.normalise();
+      return r;
+    }
+    freeze(t, now + c.remaining);
+    if (heard.outcome == claim_outcome::challenged) {
+      (void)t.admit_all(c, now, options_.silence);
+      // No longer than the claim that it answers: all authority that follows from one detection ends together. A
+      // deliberation before `due` sends it at once.
+      lead(t, now, now + options_.claim_period, now + (std::min)(options_.reign, c.remaining));
+    } else if (t.rule.obeying() && heard.outcome != claim_outcome::outranked) {
       if (!was_active) t.monitor.clear();
-      auto const& current = t.rule.current();
-      t.admit_all(current, now);
-      r.imposed = difference(t.believed.atoms(), current.atoms);
-      t.adopt(current.atoms, r.imposed);
+      r.relay = heard.fresh;
+      auto const atoms = t.admit_all(c.version == t.rule.current().version ? c : t.rule.current(), now, options_.silence);
+      r.imposed = difference(t.believed.atoms(), atoms);
+      t.obey(atoms, r.imposed);
     }
     return r;
   }
@@ -172,12 +210,16 @@ public:
   /// One deliberation on one plan type: deletes the silent, then reallocates, or obeys. `pt` must be the plan type that was
   /// entered; if none with its id was, nothing happens, and the decision says which types the robot executes.
   ///
+  /// A reallocation begins with what the others said last and with the robot's own part. If no allocation is valid the robot
+  /// takes no task, believes the others, and abstains until it sees better: it neither counts cycles, claims nor answers.
   /// Allocates nothing in a steady loop of up to eight robots. Complexity: that of `reallocate`.
   template <class Beliefs>
   decision<V> deliberate(plan_type<V, Beliefs> const& pt, team<V> const& members, Beliefs const& beliefs, instant now,
                          workspace& space, search_budget budget = {}, idling idle = idling::allowed) {
+    synchronise(now);
     decision<V> d;
     d.type = pt.id();
+    d.clock_set_back = std::exchange(set_back_, {});
     track* t = executed(pt.id());
     if (!t) {
       for (track const& other : tracks_)
@@ -190,40 +232,48 @@ public:
     if (t->rule.obeying()) {
       d.reason = decision_reason::obeyed;
     } else {
-      problem<V, Beliefs> here{pt, members, beliefs, t->believed.participants(), idle};
-      here.current = t->believed.atoms().atoms();
-      here.change_cost = options_.change_cost;
-      auto const& next = d.search.emplace(reallocate(here, options_.hysteresis, space, budget));
-      t->adopt(next.atoms, next.event);
-      d.reason = !next.plan           ? decision_reason::no_valid_allocation
-                 : next.event.empty() ? decision_reason::kept
-                                      : decision_reason::reallocated;
+      auto const here = t->rule.leading() ? t->believed.atoms() : t->believed.told(self_);
+      problem<V, Beliefs> p{pt, members, beliefs, t->believed.participants(), idle};
+      p.current = here.atoms();
+      p.change_cost = options_.change_cost;
+      auto& next = d.search.emplace(reallocate(p, options_.hysteresis, space, budget));
+      t->blind = !next.plan;
+      auto const adopted = t->blind ? others(here) : next.atoms;
+      d.event = difference(t->believed.atoms(), adopted);
+      t->adopt(adopted, d.event);
+      d.reason = t->blind          ? decision_reason::no_valid_allocation
+                 : d.event.empty() ? decision_reason::kept
+                                   : decision_reason::reallocated;
       conclude(*t, d, now);
     }
     d.own = t->believed.part(self_);
+    changed_ = changed_ || mentions(d.event, self_);
     if (t->rule.active()) d.leader = t->rule.current().leader;
     return d;
   }
 
   /// The next message that is due, claims first; call it until it returns nothing. Plan messages keep to a grid of
-  /// `message_period` from `first_message` on, however late the call; a slot that was missed is not made up for.
+  /// `message_period` from `first_message` on, however late the call; a slot that was missed is not made up for. With
+  /// `change_period`, a change of what the robot does is said before the next slot.
   [[nodiscard]] std::optional<message<V>> next_message(instant now) {
+    synchronise(now);
     for (track& t : tracks_) {
       if (!t.executing) continue;
       t.expire(now);
-      if (auto c = t.rule.next_claim(now, options_.claim_period)) return message<V>{*std::move(c)};
+      if (auto c = t.rule.next_claim(now, options_.claim_period, options_.opening_period, options_.opening)) {
+        for (in<V> const& x : c->atoms)
+          c->ages.push_back(x.agent == self_ ? duration{} : now - t.believed.heard(x.agent));
+        return message<V>{*std::move(c)};
+      }
     }
-    if (now < next_plan_message_) return std::nullopt;
-    // Unsigned, as the first slot may be further back than a duration reaches.
-    auto const late = static_cast<std::uint64_t>(now.ns) - static_cast<std::uint64_t>(next_plan_message_.ns);
-    auto const period = static_cast<std::uint64_t>(options_.message_period.ns);
-    next_plan_message_ = now + nanoseconds(static_cast<std::int64_t>(period - late % period));
-    return message<V>{snapshot()};
+    if (now < next_plan_message_ && !(change_due() <= now)) return std::nullopt;
+    if (now >= next_plan_message_) next_plan_message_ = slot_after(now);
+    return message<V>{snapshot(now)};
   }
 
   /// When `next_message` will have something to send, unless something happens before.
   [[nodiscard]] instant next_due() const noexcept {
-    instant due = next_plan_message_;
+    instant due = (std::min)(next_plan_message_, change_due());
     for (track const& t : tracks_)
       if (t.executing) due = (std::min)(due, t.rule.next_due());
     return due;
@@ -241,7 +291,51 @@ private:
   }
   track* executed(type_id type) { return const_cast<track*>(std::as_const(*this).executed(type)); }
 
-  claim_stamp<V> my_stamp() const { return {options_.confidence, self_}; }
+  /// Notes the time. If the clock was set back, everything remembered goes back with it.
+  void synchronise(instant now) {
+    if (now < latest_) {
+      duration const d = now - latest_;
+      set_back_ = set_back_ - d;
+      peers_.shift(d);
+      for (track& t : tracks_) t.shift(d);
+      spoke_ = spoke_ + d;
+      next_plan_message_ = slot_after(now);
+    }
+    latest_ = now;
+    if (next_plan_message_ - now > options_.message_period) next_plan_message_ = slot_after(now - nanoseconds(1));
+  }
+  /// The first slot of the grid of plan messages after `t`.
+  [[nodiscard]] instant slot_after(instant t) const noexcept {
+    auto const period = options_.message_period.ns;
+    auto const beyond = (t.ns % period - options_.first_message.ns % period + 2 * period) % period;
+    return t + nanoseconds(period - beyond);
+  }
+  [[nodiscard]] instant change_due() const noexcept {
+    return changed_ && options_.change_period > duration{} ? spoke_ + options_.change_period : never;
+  }
+
+  [[nodiscard]] bool forgotten(typename detail::roster<V>::peer const& p, instant now) const {
+    return p.last.incarnation.value == 0 || now - p.heard > options_.forget;
+  }
+  /// This robot's stamp, were it to claim now. It stays the same for as long as any claim it knows of can live.
+  claim_stamp<V> stamp_of(track& t, instant now) const {
+    if (now >= t.frozen_until) t.stamp = {options_.confidence, self_};
+    return t.stamp;
+  }
+  static void freeze(track& t, instant until) { t.frozen_until = (std::max)(t.frozen_until, until); }
+  [[nodiscard]] std::uint32_t digest_of(track const& t) const {
+    if constexpr (encodable_atom<in<V>>) {
+      return t.believed.fingerprint();
+    } else {
+      return 0;
+    }
+  }
+  /// What an allocation says of everybody else.
+  allocation_atoms<V> others(allocation_atoms<V> const& atoms) const {
+    auto rest = atoms;
+    if (auto const own = part_of<V>(atoms, self_); !own.empty()) rest.erase(own.front());
+    return rest;
+  }
 
   static reception<V> dropped(refusal reason) {
     reception<V> r;
@@ -255,9 +349,27 @@ private:
     return r;
   }
 
-  refusal examine(plan_message<V> const& m, bool known) const {
-    if (m.sender == self_) return refusal::own_id;
-    if (!known) return refusal::stranger;
+  /// Numbers from here on are no numbers of ours: a flipped bit, or a forgery that nothing genuine would ever exceed.
+  static constexpr std::uint64_t beyond = std::uint64_t{1} << 62;
+  [[nodiscard]] static bool jumps(std::uint64_t from, std::uint64_t to) { return to > from && to - from > most_jump; }
+  /// A message from the robot's own id: an echo, or a sign that its incarnation was not obtained as it should.
+  [[nodiscard]] refusal own(rota::incarnation speaks) const {
+    if (speaks < incarnation_) return refusal::own_former_life;
+    return speaks == incarnation_ ? refusal::own_id : refusal::own_later_life;
+  }
+
+  refusal examine(plan_message<V> const& m, typename detail::roster<V>::peer const* sender, instant now) const {
+    if (m.sender == self_) return own(m.number.incarnation);
+    if (!sender) return refusal::stranger;
+    if (m.types.size() > most_types) return refusal::too_many_types;
+    if (m.number.incarnation.value == 0 || m.number.incarnation.value >= beyond || m.number.sequence >= beyond ||
+        m.claims >= beyond)
+      return refusal::number_out_of_reach;
+    if (!forgotten(*sender, now) && m.number.incarnation == sender->last.incarnation &&
+        jumps(sender->last.sequence, m.number.sequence))
+      return refusal::number_out_of_reach;
+    for (auto const& p : m.types)
+      if (p.leads > m.claims) return refusal::foreign_claim;
     auto t = tracks_.begin();
     for (auto const* p = m.types.begin(); p != m.types.end(); ++p) {
       if (p != m.types.begin() && !((p - 1)->type < p->type)) return refusal::types_not_ascending;
@@ -269,13 +381,22 @@ private:
   }
 
   refusal examine(claim<V> const& c, bool known) const {
-    if (c.leader == self_) return refusal::own_id;
+    if (c.leader == self_) return own(c.incarnation);
     if (!known) return refusal::stranger;
+    if (c.incarnation.value == 0 || c.incarnation.value >= beyond || c.number >= beyond || c.version >= beyond)
+      return refusal::number_out_of_reach;
     if (!(c.stamp.id == c.leader)) return refusal::foreign_stamp;
     if (!options_.resolution) return refusal::resolution_off;
     auto const* t = executed(c.type);
     if (!t) return refusal::not_executed;
     if (t->rule.contradicts(c)) return refusal::foreign_stamp;
+    if (auto const last = t->rule.last_heard(c.leader); last && last->incarnation == c.incarnation)
+      if (jumps(last->number, c.number)) return refusal::number_out_of_reach;
+    if (auto const version = t->rule.version_of(c); version && jumps(*version, c.version))
+      return refusal::number_out_of_reach;
+    if (c.ages.size() != c.atoms.size()) return refusal::malformed_allocation;
+    for (duration const age : c.ages)
+      if (age < duration{} || age > longest) return refusal::malformed_allocation;
     if (c.remaining <= duration{} || c.remaining > options_.max_reign) return refusal::remaining_time;
     for (auto const* x = c.atoms.begin(); x != c.atoms.end(); ++x) {
       if (!(x->agent == self_) && !peers_.find(x->agent)) return refusal::stranger;
@@ -286,31 +407,50 @@ private:
     return refusal::none;
   }
 
-  void lead(track& t, instant now, instant due) {
+  void lead(track& t, instant now, instant due, instant expiry) {
     t.monitor.clear();
-    t.rule.lead(t.names.type(), t.believed.atoms(), my_stamp(), incarnation_, now, due, options_.reign);
+    auto const stamp = stamp_of(t, now);
+    freeze(t, expiry);
+    t.rule.lead(t.names.type(), t.believed.atoms(), stamp, incarnation_, ++claims_, now, due, expiry);
+    changed_ = true;
   }
-  /// What follows from a search: a leader says it; everybody else looks for a loop, and claims if there is one.
+  /// What follows from a search: a leader says it; everybody else looks for a loop, and claims if there is one. Who sees
+  /// nothing valid does neither.
   void conclude(track& t, decision<V>& d, instant now) {
+    if (t.blind) {
+      if (t.rule.leading()) {
+        t.rule.release();
+        t.normalise();
+      }
+      t.monitor.clear();
+      return;
+    }
     if (t.rule.leading()) {
       t.rule.revise(t.believed.atoms(), now);
       return;
     }
-    auto const v = t.monitor.on_deliberation(d.event(), t.believed.atoms(), now);
+    auto const v = t.monitor.on_deliberation(d.event, t.believed.atoms(), now);
     d.cycles = v.cycles;
     d.detected = v.detected;
     if (!v.detected || !options_.resolution) return;
-    lead(t, now, now);
+    // Beside a greater leader that is still heard, though its claim has ended by this clock, there shall be no second one.
+    if (now < t.rule.heard_late(stamp_of(t, now)) + 2 * options_.claim_period) return;
+    lead(t, now, now, now + options_.reign);
     d.reign_began = true;
   }
 
-  plan_message<V> snapshot() {
-    plan_message<V> m{self_, {incarnation_, ++sequence_}, {}};
+  plan_message<V> snapshot(instant now) {
+    spoke_ = now;
+    changed_ = false;
+    plan_message<V> m{self_, {incarnation_, ++sequence_}, claims_, {}};
     for (track const& t : tracks_) {
       if (!t.executing) continue;
-      participation<V> p{t.names.type(), std::nullopt};
+      participation<V> p;
+      p.type = t.names.type();
       if (auto const own = t.believed.part(self_))
         p.place = placement<V>{own->plan, own->task, *t.believed.state(self_)};
+      if (t.rule.leading()) p.leads = t.rule.current().number;
+      if (options_.fingerprints && encodable_atom<in<V>>) p.fingerprint = digest_of(t);
       m.types.push_back(p);
     }
     return m;
@@ -322,7 +462,12 @@ private:
   detail::roster<V> peers_;
   std::vector<track> tracks_;  // ascending by type
   std::uint64_t sequence_ = 0;
+  std::uint64_t claims_ = 0;  // made in this life
   instant next_plan_message_;
+  instant spoke_{};           // when the last plan message was sent
+  bool changed_ = false;      // something in the next plan message is new
+  instant latest_{(std::numeric_limits<std::int64_t>::min)()};
+  duration set_back_{};       // by so much the clock was set back since the last decision
 };
 
 }  // namespace rota

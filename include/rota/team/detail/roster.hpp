@@ -9,7 +9,7 @@
 
 namespace rota::detail {
 
-/// The other robots that may ever be heard of, and the number of the last plan message of each.
+/// The other robots that may ever be heard of, and the last plan message of each: its number, and when it was heard.
 template <vocabulary V>
 class roster {
 public:
@@ -17,7 +17,8 @@ public:
 
   struct peer {
     agent_id who{};
-    message_number last;
+    message_number last{};
+    instant heard{};  // when that message was accepted
     friend bool operator==(peer const&, peer const&) = default;
   };
 
@@ -36,6 +37,10 @@ public:
     return where != peers_.end() && where->who == b ? &*where : nullptr;
   }
   [[nodiscard]] peer* find(agent_id b) { return const_cast<peer*>(std::as_const(*this).find(b)); }
+  /// Moves all instants by d: the clock has been set.
+  void shift(duration d) noexcept {
+    for (peer& p : peers_) p.heard = p.heard + d;
+  }
 
   friend bool operator==(roster const&, roster const&) = default;
 

@@ -4,6 +4,9 @@
 #include <rota/team/authority.hpp>
 #include <rota/team/belief.hpp>
 
+#include <limits>
+#include <utility>
+
 namespace rota::detail {
 
 /// What a robot knows of one plan type that it executes or has executed. It is kept after leaving the type: claim numbers
@@ -16,8 +19,12 @@ struct track {
   belief<V> believed;
   Monitor monitor;
   authority<V> rule;
+  claim_stamp<V> stamp{};  // of this robot's claims; computed once for as long as a claim that it knows of can live,
+  instant frozen_until{(std::numeric_limits<std::int64_t>::min)()};  // which is until here
+  std::uint64_t said = 0;  // what this robot said of itself last: see `digest_of_self`
   bool executing = false;
   bool lapsed = false;  // a reign has ended since the last deliberation
+  bool blind = false;   // the last deliberation found no valid allocation: it neither counts cycles, claims nor answers
 
   /// Ends a reign whose time is over.
   void expire(instant now) {
@@ -28,14 +35,6 @@ struct track {
     monitor.clear();
     lapsed = true;
   }
-  /// Ends the reign of a leader that has restarted: it knows nothing of what it claimed in its former life.
-  void bury_former_life(agent_id sender, incarnation now_living) {
-    if (!rule.obeying() || !(rule.current().leader == sender)) return;
-    if (rule.current().incarnation >= now_living) return;
-    rule.end();
-    normalise();
-  }
-
   /// b no longer takes part. If b was the leader, its reign ends here.
   part_change<V> dismiss(agent_id b) {
     auto const change = believed.expel(b);
@@ -60,21 +59,43 @@ struct track {
     return total;
   }
 
-  /// Counts in the leader and whom its claim is about. Only the leader has given a sign of life.
-  void admit_all(claim<V> const& c, instant now) {
+  /// Counts in the leader and whom its claim is about, as long as they have lived by what it says. Only the leader has given
+  /// a sign of life. @return the allocation of the claim without the others @pre as many ages as atoms
+  allocation_atoms<V> admit_all(claim<V> const& c, instant now, duration silence) {
     believed.admit(c.leader, now);
-    for (in<V> const& x : c.atoms)
-      if (!believed.takes_part(x.agent)) believed.admit(x.agent, now);
+    small_vector<in<V>, 8> alive;
+    for (std::size_t i = 0; i < c.atoms.size(); ++i) {
+      in<V> const& x = c.atoms.begin()[i];
+      if (c.ages[i] <= silence) believed.admit(x.agent, now - c.ages[i]);
+      if (believed.takes_part(x.agent)) alive.push_back(x);
+    }
+    return allocation_atoms<V>::from_ascending(std::move(alive));
   }
   /// Adopts an allocation. Whoever gets a new task is taken to begin in its entry state.
   /// @pre `e` leads from the believed allocation to `atoms`
   void adopt(allocation_atoms<V> const& atoms, event<in<V>> const& e) {
     if (e.empty()) return;
     believed.replace(atoms);
+    begin(e);
+  }
+  /// As `adopt`, where a leader says so.
+  void obey(allocation_atoms<V> const& atoms, event<in<V>> const& e) {
+    believed.impose(atoms);
+    begin(e);
+  }
+  void begin(event<in<V>> const& e) {
     for (auto const& x : e) {
       if (x.value != sign::plus) continue;
       if (auto const* entry = names.find(x.atom.plan, x.atom.task)) believed.set_state(x.atom.agent, entry->state);
     }
+  }
+
+  /// Moves all instants by d: the clock has been set.
+  void shift(duration d) noexcept {
+    believed.shift(d);
+    monitor.shift(d);
+    rule.shift(d);
+    if (frozen_until.ns != (std::numeric_limits<std::int64_t>::min)()) frozen_until = frozen_until + d;
   }
 
   friend bool operator==(track const&, track const&) = default;
