@@ -19,7 +19,7 @@ TEST_F(deliberation, enters_alone_decides_and_leaves) {
   EXPECT_FALSE(a.enter(play, start));
   auto const d = think(a, sees(1));
   EXPECT_EQ(d.reason, decision_reason::reallocated);
-  EXPECT_EQ(d.event(), event::addition(does(1, attack)));
+  EXPECT_EQ(d.event, event::addition(does(1, attack)));
   EXPECT_EQ(d.own, does(1, attack));
   EXPECT_EQ(a.believes(play_id)->state(agent(1)), soccer::state::get_ball) << "the entry state of the task";
   EXPECT_EQ(think(a, sees(1)).reason, decision_reason::kept);

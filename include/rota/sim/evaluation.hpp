@@ -23,7 +23,7 @@ struct play_options {
 /// Plays a scenario once and measures it; `observe` sees every record as well. Equal options give equal figures.
 ///
 /// @pre 2 ≤ robots ≤ max_robots. Complexity: about 1 µs per deliberation and message.
-template <class Monitor = cycle_monitor<names>, observer Observer>
+template <class Monitor = conflict_monitor<names>, observer Observer>
 [[nodiscard]] figures play(playbook const& book, play_options const& options, Observer&& observe) {
   simulation<scripted_world, Monitor> team(
       book, scripted_world(options.what, options.robots, options.team.seed, options.world), options.team);
@@ -36,7 +36,7 @@ template <class Monitor = cycle_monitor<names>, observer Observer>
   });
   return measure.finish(end);
 }
-template <class Monitor = cycle_monitor<names>>
+template <class Monitor = conflict_monitor<names>>
 [[nodiscard]] figures play(playbook const& book, play_options const& options) {
   return play<Monitor>(book, options, [](log_record const&) {});
 }

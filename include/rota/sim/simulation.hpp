@@ -28,7 +28,7 @@ struct simulation_options {
 /// Deterministic: events are totally ordered by time, then kind, then robot, then order of creation. What the robots decide
 /// changes nothing in the random streams of world, perceptions and network.
 /// Memory: bounded by robots and messages under way.
-template <world World, class Monitor = cycle_monitor<names>>
+template <world World, class Monitor = conflict_monitor<names>>
 class simulation {
 public:
   using robot_type = rota::robot<names, Monitor>;
@@ -153,9 +153,9 @@ private:
     more.cycles = d.cycles;
     more.detected = d.detected.has_value();
     if (d.deleted.empty()) {
-      tell(observe, i, happening::deliberated, d.event(), more);
+      tell(observe, i, happening::deliberated, d.event, more);
     } else {
-      tell(observe, i, happening::deliberated, compose(d.deleted, d.event()), more);
+      tell(observe, i, happening::deliberated, compose(d.deleted, d.event), more);
     }
     note_reign(i, observe, d.reign_began);
     speak(i, observe);

@@ -21,6 +21,8 @@ struct decision;
 template <vocabulary V>
 class cycle_monitor;
 template <vocabulary V>
+class insistence_monitor;
+template <vocabulary V>
 class literal_monitor;
 template <vocabulary V>
 class authority;

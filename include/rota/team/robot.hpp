@@ -50,9 +50,9 @@ public:
     ROTA_ASSERT(life.value > 0);
     ROTA_ASSERT(options.message_period > duration{} && options.claim_period > duration{});
     ROTA_ASSERT(options.reign > duration{} && options.reign <= options.max_reign);
-    for (duration d : {options.max_reign, options.message_period, options.claim_period, options.silence, options.forget,
+    for (duration const most : {options.max_reign, options.message_period, options.claim_period, options.silence, options.forget,
                        options.max_delay, options.pending_age})
-      ROTA_ASSERT(d >= duration{} && d <= longest);
+      ROTA_ASSERT(most >= duration{} && most <= longest);
   }
 
   /// No duration of the options is longer, so that instants do not overflow.
