@@ -3,6 +3,7 @@
 #include "plays.hpp"
 
 #include <map>
+#include <rota/team/monitors/literal.hpp>
 
 namespace detection_test {
 

@@ -3,6 +3,7 @@
 #include "plays.hpp"
 
 #include <rota/team/conflict.hpp>
+#include <rota/team/monitors/literal.hpp>
 
 #include <algorithm>
 #include <cmath>

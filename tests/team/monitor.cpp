@@ -5,6 +5,7 @@
 
 #include <rota/algebra/apply.hpp>
 #include <rota/team/monitor.hpp>
+#include <rota/team/monitors/literal.hpp>
 
 #include <optional>
 
@@ -193,8 +194,18 @@ TEST(cycle_monitor, rule_iv_agreement_otherwise_starts_over) {
   standard r(2);
   r.put(b, b_defends);
   fights(r, 1);
-  r.hear(b, b_defends);  // b gave in: they agree
+  r.hear(b, b_defends);  // b gives in, and says so twice: they agree
+  r.hear(b, b_defends);
   fights(r, 1);
+}
+
+TEST(cycle_monitor, rule_iv_one_agreeing_message_between_cycles_changes_nothing) {
+  standard r(2);
+  r.put(b, b_defends);
+  fights(r, 1);
+  r.hear(b, b_defends);  // b yields for a moment, then retakes
+  r.hear(b, b_attacks);
+  EXPECT_TRUE(r.deliberate(b_defends).detected);
 }
 
 TEST(cycle_monitor, rule_v_a_third_agent_in_the_same_tick_hides_nothing) {

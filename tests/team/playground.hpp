@@ -73,7 +73,7 @@ inline atom does(int n, soccer::task t) { return {agent(n), soccer::plan::normal
 
 inline claim claim_by(int leader, int attacker, std::uint64_t number = 1) {
   return {play_id, {does(attacker, attack)}, {0, agent(leader)}, agent(leader), first_life, number,
-          1,       rota::seconds(2)};
+          1,       rota::seconds(2),         {rota::duration{}}};
 }
 
 /// A team of nine, of which the tests let some robots play.

@@ -134,6 +134,7 @@ TEST_F(reigns, each_copy_of_a_claim_restores_what_a_follower_lost_meanwhile) {
   auto a = in_play(1);
   auto c = claim_by(9, 3);
   c.atoms.insert(does(2, defend));
+  c.ages.push_back({});
   a.receive(says(2, 1, defend), start);
   a.receive(c, start);
   a.receive(says_nothing(2, 2), start);
@@ -160,6 +161,7 @@ TEST_F(reigns, a_challenger_deliberates_before_it_speaks_and_counts_in_whom_the_
   auto a = in_play(5);
   auto c = claim_by(4, 3);
   c.atoms.insert(does(4, defend));
+  c.ages.push_back({});
   a.receive(c, start);
   auto const before = a.next_message(start);  // its plan message only
   ASSERT_TRUE(before);

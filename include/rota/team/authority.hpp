@@ -106,7 +106,8 @@ public:
     bool const fresh = id > k.last || c.remaining < k.least;
     if (id > k.last) {
       k = {c.leader, id, c.stamp, end, end - max_delay, never_heard, c.remaining};
-      if (obeying() && claim_.leader == c.leader) phase_ = phase::none;  // a leader that claims anew has ended the last one
+      if (obeying() && claim_.leader == c.leader)
+        phase_ = phase::none;  // a leader that claims anew has ended the last one
     } else {
       k.expiry = (std::max)(k.earliest, (std::min)(k.expiry, end));
       k.least = (std::min)(k.least, c.remaining);
@@ -170,9 +171,10 @@ public:
 
   /// When the leader has to speak next; `never` for everybody else.
   [[nodiscard]] instant next_due() const noexcept { return leading() ? next_repeat_ : never; }
-  /// The leader's claim if it is due, with the remaining time filled in; `ages` is left to the caller. O(|claim|).
-  [[nodiscard]] std::optional<claim<V>> next_claim(instant now, duration period, duration opening_period,
-                                                   duration opening) {
+  /// The leader's claim if it is due, with the remaining time filled in; `ages` is left to the caller. It repeats every
+  /// `period`, and in the first `opening` of the reign every `opening_period`. O(|claim|).
+  [[nodiscard]] std::optional<claim<V>> next_claim(instant now, duration period, duration opening = {},
+                                                   duration opening_period = {}) {
     if (!leading() || now < next_repeat_ || now >= expiry_) return std::nullopt;
     next_repeat_ = now + (now - began_ < opening ? (std::min)(opening_period, period) : period);
     said_ = true;
@@ -257,8 +259,8 @@ private:
   instant expiry_{};
   instant began_{};
   instant next_repeat_{};
-  bool said_ = false;              // the claim was sent at least once
-  small_vector<known, 4> known_;   // ascending by leader; at most one per agent of the roster
+  bool said_ = false;             // the claim was sent at least once
+  small_vector<known, 4> known_;  // ascending by leader; at most one per agent of the roster
 };
 
 }  // namespace rota

@@ -50,9 +50,9 @@ public:
     ROTA_ASSERT(life.value > 0);
     ROTA_ASSERT(options.message_period > duration{} && options.claim_period > duration{});
     ROTA_ASSERT(options.reign > duration{} && options.reign <= options.max_reign);
-    for (duration const most : {options.max_reign, options.message_period, options.claim_period, options.silence, options.forget,
-                       options.max_delay, options.pending_age})
-      ROTA_ASSERT(most >= duration{} && most <= longest);
+    ROTA_ASSERT(options.max_reign <= longest && options.message_period <= longest && options.claim_period <= longest);
+    ROTA_ASSERT(options.silence <= longest && options.forget <= longest && options.pending_age <= longest);
+    ROTA_ASSERT(options.max_delay >= duration{} && options.max_delay <= longest);
   }
 
   /// No duration of the options is longer, so that instants do not overflow.
@@ -135,14 +135,13 @@ public:
   /// begin a new life with any number. Whether a message is genuine is for the transport to ensure.
   /// O(types of the message + types known), and for each executed type two searches for the sender.
   reception<V> receive(plan_message<V> const& m, instant now) {
-    synchronise(now);
     auto* const sender = peers_.find(m.sender);
     if (auto const reason = examine(m, sender, now); reason != refusal::none) return dropped(reason);
-    if (!forgotten(*sender, now)) {
-      if (m.number <= sender->last) return dropped();
-    } else {
+    bool const new_life = forgotten(*sender, now);
+    if (!new_life && m.number <= sender->last) return dropped();
+    synchronise(now);
+    if (new_life)
       for (track& t : tracks_) t.rule.forget(m.sender);
-    }
     sender->last = m.number;
     sender->heard = now;
     reception<V> r;
@@ -176,10 +175,10 @@ public:
   /// bring back whom its leader has not heard for `robot_options::silence`.
   /// The leader judges whether its allocation is valid, under its own beliefs. O(|claim| log roster).
   reception<V> receive(claim<V> const& c, instant now) {
-    synchronise(now);
     auto const* const sender = peers_.find(c.leader);
     if (auto const reason = examine(c, sender != nullptr); reason != refusal::none) return dropped(reason);
     if (c.incarnation < sender->last.incarnation) return dropped();
+    synchronise(now);
     track& t = *executed(c.type);
     t.expire(now);
     reception<V> r;
@@ -200,7 +199,8 @@ public:
     } else if (t.rule.obeying() && heard.outcome != claim_outcome::outranked) {
       if (!was_active) t.monitor.clear();
       r.relay = heard.fresh;
-      auto const atoms = t.admit_all(c.version == t.rule.current().version ? c : t.rule.current(), now, options_.silence);
+      auto const atoms =
+          t.admit_all(c.version == t.rule.current().version ? c : t.rule.current(), now, options_.silence);
       r.imposed = difference(t.believed.atoms(), atoms);
       t.obey(atoms, r.imposed);
     }
@@ -260,9 +260,8 @@ public:
     for (track& t : tracks_) {
       if (!t.executing) continue;
       t.expire(now);
-      if (auto c = t.rule.next_claim(now, options_.claim_period, options_.opening_period, options_.opening)) {
-        for (in<V> const& x : c->atoms)
-          c->ages.push_back(x.agent == self_ ? duration{} : now - t.believed.heard(x.agent));
+      if (auto c = t.rule.next_claim(now, options_.claim_period, options_.opening, options_.opening_period)) {
+        for (in<V> const& x : c->atoms) c->ages.push_back(age_of(t, x.agent, now));
         return message<V>{*std::move(c)};
       }
     }
@@ -304,11 +303,11 @@ private:
     latest_ = now;
     if (next_plan_message_ - now > options_.message_period) next_plan_message_ = slot_after(now - nanoseconds(1));
   }
-  /// The first slot of the grid of plan messages after `t`.
-  [[nodiscard]] instant slot_after(instant t) const noexcept {
+  /// The first slot of the grid of plan messages after an instant.
+  [[nodiscard]] instant slot_after(instant after) const noexcept {
     auto const period = options_.message_period.ns;
-    auto const beyond = (t.ns % period - options_.first_message.ns % period + 2 * period) % period;
-    return t + nanoseconds(period - beyond);
+    auto const past = (after.ns % period - options_.first_message.ns % period + 2 * period) % period;
+    return after + nanoseconds(period - past);
   }
   [[nodiscard]] instant change_due() const noexcept {
     return changed_ && options_.change_period > duration{} ? spoke_ + options_.change_period : never;
@@ -321,6 +320,11 @@ private:
   claim_stamp<V> stamp_of(track& t, instant now) const {
     if (now >= t.frozen_until) t.stamp = {options_.confidence, self_};
     return t.stamp;
+  }
+  /// For how long nothing was heard of b; for too long, if it has gone since the leader deliberated.
+  [[nodiscard]] duration age_of(track const& t, agent_id b, instant now) const {
+    if (b == self_) return {};
+    return t.believed.takes_part(b) ? now - t.believed.heard(b) : options_.silence + nanoseconds(1);
   }
   static void freeze(track& t, instant until) { t.frozen_until = (std::max)(t.frozen_until, until); }
   [[nodiscard]] std::uint32_t digest_of(track const& t) const {
@@ -350,7 +354,7 @@ private:
   }
 
   /// Numbers from here on are no numbers of ours: a flipped bit, or a forgery that nothing genuine would ever exceed.
-  static constexpr std::uint64_t beyond = std::uint64_t{1} << 62;
+  static constexpr std::uint64_t out_of_reach = std::uint64_t{1} << 62;
   [[nodiscard]] static bool jumps(std::uint64_t from, std::uint64_t to) { return to > from && to - from > most_jump; }
   /// A message from the robot's own id: an echo, or a sign that its incarnation was not obtained as it should.
   [[nodiscard]] refusal own(rota::incarnation speaks) const {
@@ -362,8 +366,8 @@ private:
     if (m.sender == self_) return own(m.number.incarnation);
     if (!sender) return refusal::stranger;
     if (m.types.size() > most_types) return refusal::too_many_types;
-    if (m.number.incarnation.value == 0 || m.number.incarnation.value >= beyond || m.number.sequence >= beyond ||
-        m.claims >= beyond)
+    if (m.number.incarnation.value == 0 || m.number.incarnation.value >= out_of_reach ||
+        m.number.sequence >= out_of_reach || m.claims >= out_of_reach)
       return refusal::number_out_of_reach;
     if (!forgotten(*sender, now) && m.number.incarnation == sender->last.incarnation &&
         jumps(sender->last.sequence, m.number.sequence))
@@ -383,7 +387,8 @@ private:
   refusal examine(claim<V> const& c, bool known) const {
     if (c.leader == self_) return own(c.incarnation);
     if (!known) return refusal::stranger;
-    if (c.incarnation.value == 0 || c.incarnation.value >= beyond || c.number >= beyond || c.version >= beyond)
+    if (c.incarnation.value == 0 || c.incarnation.value >= out_of_reach || c.number >= out_of_reach ||
+        c.version >= out_of_reach)
       return refusal::number_out_of_reach;
     if (!(c.stamp.id == c.leader)) return refusal::foreign_stamp;
     if (!options_.resolution) return refusal::resolution_off;
@@ -394,9 +399,6 @@ private:
       if (jumps(last->number, c.number)) return refusal::number_out_of_reach;
     if (auto const version = t->rule.version_of(c); version && jumps(*version, c.version))
       return refusal::number_out_of_reach;
-    if (c.ages.size() != c.atoms.size()) return refusal::malformed_allocation;
-    for (duration const age : c.ages)
-      if (age < duration{} || age > longest) return refusal::malformed_allocation;
     if (c.remaining <= duration{} || c.remaining > options_.max_reign) return refusal::remaining_time;
     for (auto const* x = c.atoms.begin(); x != c.atoms.end(); ++x) {
       if (!(x->agent == self_) && !peers_.find(x->agent)) return refusal::stranger;
@@ -404,6 +406,9 @@ private:
       if (!(x->plan == c.atoms.begin()->plan)) return refusal::malformed_allocation;
       if (x != c.atoms.begin() && (x - 1)->agent == x->agent) return refusal::malformed_allocation;
     }
+    if (c.ages.size() != c.atoms.size()) return refusal::malformed_allocation;
+    for (duration const age : c.ages)
+      if (age < duration{} || age > longest) return refusal::malformed_allocation;
     return refusal::none;
   }
 
@@ -464,10 +469,10 @@ private:
   std::uint64_t sequence_ = 0;
   std::uint64_t claims_ = 0;  // made in this life
   instant next_plan_message_;
-  instant spoke_{};           // when the last plan message was sent
-  bool changed_ = false;      // something in the next plan message is new
+  instant spoke_{};       // when the last plan message was sent
+  bool changed_ = false;  // something in the next plan message is new
   instant latest_{(std::numeric_limits<std::int64_t>::min)()};
-  duration set_back_{};       // by so much the clock was set back since the last decision
+  duration set_back_{};  // by so much the clock was set back since the last decision
 };
 
 }  // namespace rota
