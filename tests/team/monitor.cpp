@@ -50,7 +50,7 @@ struct receiver {
   void hear(soccer::agent who, part const& p) {
     auto const before = get(who);
     put(who, p);
-    monitor.on_message({who, before, p}, now);
+    monitor.on_message(rota::part_change<soccer>{who, before, p}, now);
   }
   /// Deliberates so that b, and perhaps c, have these parts afterwards.
   rota::monitor_verdict<soccer> deliberate(part const& for_b, std::optional<part> const& for_c = std::nullopt) {
@@ -63,6 +63,8 @@ struct receiver {
 };
 using standard = receiver<rota::cycle_monitor<soccer>>;
 using literal = receiver<rota::literal_monitor<soccer>>;
+using insistence = receiver<rota::insistence_monitor<soccer>>;
+using both = receiver<rota::conflict_monitor<soccer>>;
 
 template <class Receiver>
 void fights(Receiver& r, int cycles, part const& home = b_defends) {
@@ -284,6 +286,63 @@ TEST(cycle_monitor, senders_are_independent) {
     }
     RC_CLASSIFY(interfered);
   }));
+}
+
+/// Join, be overridden, leave: the leaving message agrees, as the override has taken the part away already.
+TEST(conflict_monitor, sees_joining_and_leaving_although_the_leaving_agrees) {
+  both r(4);
+  for (int i = 1; i <= 4; ++i) {
+    r.hear(b, b_attacks);
+    EXPECT_EQ(r.deliberate(std::nullopt).detected.has_value(), i == 4) << i;
+    r.hear(b, std::nullopt);
+  }
+}
+
+/// b insists, and is given something else each time: a conflict for ever without any cycle of Def. 5.
+TEST(conflict_monitor, sees_a_sender_that_insists_and_is_never_given_the_same_twice) {
+  both r(4);
+  standard cycles(4);
+  r.put(b, b_defends), cycles.put(b, b_defends);
+  for (int i = 1; i <= 20; ++i) {
+    part const given = i % 2 == 0 ? part{b_defends} : std::nullopt;
+    r.hear(b, b_attacks), cycles.hear(b, b_attacks);
+    if (i <= 4) {
+      EXPECT_EQ(r.deliberate(given).detected.has_value(), i == 4) << i;
+    }
+    EXPECT_FALSE(cycles.deliberate(given).detected) << "no part is ever restored";
+  }
+}
+
+TEST(insistence_monitor, counts_only_what_is_said_again_and_overridden_again) {
+  insistence r(3);
+  r.put(b, b_defends);
+  for (int i = 0; i < 10; ++i) {
+    r.hear(b, b_attacks);
+    EXPECT_FALSE(r.deliberate(b_defends).detected) << i;
+    r.hear(b, b_attacks);
+    EXPECT_FALSE(r.deliberate(b_attacks).detected) << "given way at last: nothing is left of it";
+    r.hear(b, b_attacks);
+    EXPECT_FALSE(r.deliberate(b_defends).detected);
+    r.hear(b, std::nullopt);
+    EXPECT_FALSE(r.deliberate(b_defends).detected) << "another mind";
+  }
+}
+
+TEST(insistence_monitor, hears_one_message_once_however_often_it_deliberates) {
+  insistence r(2);
+  r.hear(b, b_attacks);
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(r.deliberate(b_defends).detected);
+  r.hear(b, b_attacks);
+  EXPECT_TRUE(r.deliberate(b_defends).detected);
+}
+
+TEST(insistence_monitor, what_was_said_long_ago_counts_no_more) {
+  insistence r(2);
+  r.hear(b, b_attacks);
+  EXPECT_FALSE(r.deliberate(b_defends).detected);
+  r.now = r.now + rota::seconds(2);
+  r.hear(b, b_attacks);
+  EXPECT_FALSE(r.deliberate(b_defends).detected);
 }
 
 }  // namespace

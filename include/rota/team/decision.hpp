@@ -98,10 +98,10 @@ struct robot_options {
   duration opening = milliseconds(200);        ///< in the first so long of its reign it repeats it
   duration opening_period = milliseconds(30);  ///< … this often
   duration max_delay = milliseconds(500);      ///< no message is expected to be under way for longer
-  duration silence = seconds(2);              ///< an agent that was not heard for longer is deleted
+  duration silence = seconds(2);               ///< an agent that was not heard for longer is deleted
   duration forget = seconds(30);  ///< an agent that was not heard for longer may begin a new life with any number
   bool fingerprints = false;      ///< plan messages say what their sender believes of everybody, as four bytes
-  instant first_message{};                    ///< the first slot of the grid of plan messages
+  instant first_message{};        ///< the first slot of the grid of plan messages
   std::uint32_t confidence = 0;   ///< of this robot's claims: the greater confidence leads, then the greater id
   bool resolution = true;         ///< off: the robot detects loops, but neither claims nor obeys
   rota::hysteresis hysteresis{};  ///< see `reallocate`

@@ -48,7 +48,8 @@ template <vocabulary V = runtime_vocabulary>
 struct plan_message {
   typename V::agent sender{};
   message_number number;
-  std::uint64_t claims = 0;  ///< how many claims the sender has made in this life; all are over but those it `leads` with
+  std::uint64_t claims =
+      0;  ///< how many claims the sender has made in this life; all are over but those it `leads` with
   small_vector<participation<V>, 4> types{};  ///< strictly ascending by type
 
   friend bool operator==(plan_message const&, plan_message const&) = default;

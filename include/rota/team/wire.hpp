@@ -107,14 +107,15 @@ template <vocabulary V>
   detail::byte_writer w(out);
   w.byte(detail::wire_mark | wire_version << 1);
   detail::write(w, m.sender);
-  w.number(m.number.incarnation);
+  w.number(m.number.incarnation.value);
   w.number(m.number.sequence);
+  w.number(m.claims);
   w.number(m.types.size());
   for (participation<V> const& p : m.types) {
     detail::write(w, p.type);
-    w.byte(static_cast<std::uint8_t>((p.place ? detail::has_place : 0) |
-                                     (p.fingerprint ? detail::has_fingerprint : 0)));
-    w.number(p.claims_over);
+    w.byte(
+        static_cast<std::uint8_t>((p.place ? detail::has_place : 0) | (p.fingerprint ? detail::has_fingerprint : 0)));
+    w.number(p.leads);
     if (p.place) {
       detail::write(w, p.place->plan);
       detail::write(w, p.place->task);
@@ -136,7 +137,7 @@ template <vocabulary V>
   w.byte(detail::wire_mark | wire_version << 1 | detail::wire_claim);
   detail::write(w, c.type);
   detail::write(w, c.leader);
-  w.number(c.incarnation);
+  w.number(c.incarnation.value);
   w.number(c.number);
   w.number(c.version);
   w.number(c.stamp.confidence);
@@ -168,15 +169,16 @@ namespace detail {
 template <vocabulary V>
 void read(byte_reader& r, plan_message<V>& m) {
   m.sender = read<typename V::agent>(r);
-  m.number.incarnation = r.number();
+  m.number.incarnation.value = r.number();
   m.number.sequence = r.number();
+  m.claims = r.number();
   auto const count = r.number(most_wire_types);
   for (std::uint64_t i = 0; i < count && r.wrong() == byte_reader::fault::none; ++i) {
     participation<V> p;
     p.type = read<typename V::plan_type>(r);
     auto const flags = r.byte();
     if ((flags & ~(has_place | has_fingerprint)) != 0) r.fail(byte_reader::fault::not_canonical);
-    p.claims_over = r.number();
+    p.leads = r.number();
     if ((flags & has_place) != 0) {
       placement<V> place;
       place.plan = read<typename V::plan>(r);
@@ -194,7 +196,7 @@ void read(byte_reader& r, claim<V>& c, small_vector<in<V>, 8>& atoms) {
   constexpr auto longest = static_cast<std::uint64_t>((std::numeric_limits<std::int64_t>::max)());
   c.type = read<typename V::plan_type>(r);
   c.leader = read<typename V::agent>(r);
-  c.incarnation = r.number();
+  c.incarnation.value = r.number();
   c.number = r.number();
   c.version = r.number();
   c.stamp.confidence = static_cast<std::uint32_t>(r.number((std::numeric_limits<std::uint32_t>::max)()));
