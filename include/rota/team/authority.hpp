@@ -194,6 +194,19 @@ public:
     }
   }
 
+  template <class Digest>
+  void digest_into(Digest& d) const {
+    d(phase_);
+    if (active()) {
+      d(claim_.leader, claim_.incarnation.value, claim_.number, claim_.version, claim_.stamp.confidence, expiry_);
+      for (auto const& x : claim_.atoms) d(x.agent, x.plan, x.task);
+    }
+    if (leading()) d(began_, next_repeat_, said_);
+    for (known const& k : known_)
+      d(k.leader, k.last.incarnation.value, k.last.number, k.stamp.confidence, k.expiry, k.earliest, k.late, k.least,
+        k.answered, k.over);
+    d(known_.size());
+  }
   friend bool operator==(authority const&, authority const&) = default;
 
 private:

@@ -145,6 +145,15 @@ public:
     records_[*at].state = z;
   }
 
+  template <class Digest>
+  void digest_into(Digest& d) const {
+    for (auto const& x : atoms_) d(x.agent, x.plan, x.task);
+    d(atoms_.size()).all(who_);
+    for (record const& r : records_) {
+      d(r.state, r.heard, r.said.has_value());
+      if (r.said) d(r.said->plan, r.said->task);
+    }
+  }
   friend bool operator==(belief const&, belief const&) = default;
 
 private:

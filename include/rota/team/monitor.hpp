@@ -45,6 +45,10 @@ public:
     second_.shift(d);
   }
 
+  template <class Digest>
+  void digest_into(Digest& d) const {
+    d(first_, second_);
+  }
   friend bool operator==(either_monitor const&, either_monitor const&) = default;
 
 private:

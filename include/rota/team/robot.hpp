@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rota/team/decision.hpp>
+#include <rota/team/detail/digest.hpp>
 #include <rota/team/detail/roster.hpp>
 #include <rota/team/detail/track.hpp>
 #include <rota/team/message.hpp>
@@ -276,6 +277,16 @@ public:
     for (track const& t : tracks_)
       if (t.executing) due = (std::min)(due, t.rule.next_due());
     return due;
+  }
+
+  /// A digest of everything that decides what the robot does from `now` on, whatever its options. Two robots with equal
+  /// options whose digests are equal, each at its own instant, behave alike from then on, but for collisions: to explore and
+  /// to replay.
+  [[nodiscard]] std::uint64_t digest(instant now) const {
+    detail::state_digest d(now);
+    d(self_, incarnation_.value, peers_).all(tracks_);
+    d(sequence_, claims_, next_plan_message_, spoke_, changed_, set_back_);
+    return d.value();
   }
 
   friend bool operator==(robot const&, robot const&) = default;

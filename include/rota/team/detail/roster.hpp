@@ -42,6 +42,10 @@ public:
     for (peer& p : peers_) p.heard = p.heard + d;
   }
 
+  template <class Digest>
+  void digest_into(Digest& d) const {
+    for (peer const& p : peers_) d(p.who, p.last.incarnation.value, p.last.sequence, p.heard);
+  }
   friend bool operator==(roster const&, roster const&) = default;
 
 private:

@@ -21,7 +21,6 @@ struct track {
   authority<V> rule;
   claim_stamp<V> stamp{};  // of this robot's claims; computed once for as long as a claim that it knows of can live,
   instant frozen_until{(std::numeric_limits<std::int64_t>::min)()};  // which is until here
-  std::uint64_t said = 0;  // what this robot said of itself last: see `digest_of_self`
   bool executing = false;
   bool lapsed = false;  // a reign has ended since the last deliberation
   bool blind = false;   // the last deliberation found no valid allocation: it neither counts cycles, claims nor answers
@@ -98,6 +97,10 @@ struct track {
     if (frozen_until.ns != (std::numeric_limits<std::int64_t>::min)()) frozen_until = frozen_until + d;
   }
 
+  template <class Digest>
+  void digest_into(Digest& d) const {
+    d(names.type(), believed, monitor, rule, stamp.confidence, frozen_until, executing, lapsed, blind);
+  }
   friend bool operator==(track const&, track const&) = default;
 };
 

@@ -80,6 +80,14 @@ public:
     for (watch& w : watches_) w.opened = w.opened + d;
   }
 
+  template <class Digest>
+  void digest_into(Digest& d) const {
+    for (watch const& w : watches_) {
+      d(w.sender, w.old_part.has_value(), w.opened, w.count, w.agreed, w.open, w.deliberated);
+      if (w.old_part) d(w.old_part->plan, w.old_part->task);
+    }
+    d(watches_.size());
+  }
   friend bool operator==(cycle_monitor const&, cycle_monitor const&) = default;
 
 private:

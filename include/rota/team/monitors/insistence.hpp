@@ -57,6 +57,14 @@ public:
     for (watch& w : watches_) w.heard = w.heard + d;
   }
 
+  template <class Digest>
+  void digest_into(Digest& d) const {
+    for (watch const& w : watches_) {
+      d(w.sender, w.said.has_value(), w.heard, w.count, w.unanswered);
+      if (w.said) d(w.said->plan, w.said->task);
+    }
+    d(watches_.size());
+  }
   friend bool operator==(insistence_monitor const&, insistence_monitor const&) = default;
 
 private:

@@ -54,6 +54,14 @@ public:
     if (old != pending_.end()) pending_.erase(old);
   }
 
+  template <class Digest>
+  void digest_into(Digest& d) const {
+    for (pending const& p : pending_) {
+      d(p.sender);
+      for (auto const& x : p.e_m) d(x.value, x.atom.agent, x.atom.plan, x.atom.task);
+    }
+    d(pending_.size(), count_);
+  }
   friend bool operator==(literal_monitor const&, literal_monitor const&) = default;
 
 private:
