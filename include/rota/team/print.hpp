@@ -8,6 +8,7 @@
 #include <rota/search/print.hpp>
 #include <rota/team/conflict.hpp>
 #include <rota/team/decision.hpp>
+#include <rota/team/wire.hpp>
 
 #include <cstddef>
 #include <string>
@@ -38,13 +39,19 @@ namespace rota {
 [[nodiscard]] inline std::string to_string(refusal r) {
   switch (r) {
   case refusal::none: return "nothing is wrong";
-  case refusal::own_id: return "it says that the receiver sent it";
+  case refusal::own_id: return "it says that the receiver sent it: an echo, or two robots with one id";
+  case refusal::own_former_life: return "it says that the receiver sent it in an earlier life: an echo";
+  case refusal::own_later_life:
+    return "it says that the receiver sent it in a later life: the receiver's incarnation is too small";
   case refusal::stranger: return "its sender, or an agent that it is about, is not in the roster";
+  case refusal::too_many_types: return "it lists more plan types than a message may have";
+  case refusal::number_out_of_reach: return "it has a number that no genuine message can have by now";
   case refusal::types_not_ascending: return "its plan types repeat or are out of order";
   case refusal::unknown_task: return "the plan type has no such plan or task";
   case refusal::not_executed: return "it claims a plan type that the receiver does not execute";
-  case refusal::malformed_allocation: return "its allocation gives an agent two tasks or mixes plans";
+  case refusal::malformed_allocation: return "its allocation gives an agent two tasks, mixes plans, or lacks ages";
   case refusal::foreign_stamp: return "its stamp is not its leader's, or not the one the claim had before";
+  case refusal::foreign_claim: return "its sender leads with a claim that it has not made";
   case refusal::remaining_time: return "its remaining time is not positive or too long";
   case refusal::resolution_off: return "the receiver takes no part in conflict resolution";
   }
@@ -58,6 +65,23 @@ namespace rota {
   case claim_outcome::expired: return "the claim has already ended here";
   case claim_outcome::outranked: return "a greater stamp is in force";
   case claim_outcome::challenged: return "the receiver's stamp is greater, so it claims";
+  }
+  return "?";
+}
+[[nodiscard]] inline std::string to_string(wire_fault f) {
+  switch (f) {
+  case wire_fault::no_room: return "the buffer is too small";
+  case wire_fault::too_many: return "it has more types or atoms than a message may have";
+  case wire_fault::unequal_ages: return "the claim has not one age for each atom";
+  case wire_fault::mixed_plans: return "the claim's atoms are of two plans";
+  case wire_fault::negative_time: return "a remaining time or an age is negative";
+  case wire_fault::foreign: return "it does not begin as a message of rota does";
+  case wire_fault::version: return "it is of another version of the form";
+  case wire_fault::cut_short: return "it ends too early";
+  case wire_fault::too_long: return "it goes on after its end";
+  case wire_fault::checksum: return "its checksum does not fit: a bit was flipped";
+  case wire_fault::not_canonical: return "a number, a flag or the order of its atoms is not as it would be written";
+  case wire_fault::out_of_range: return "a number is beyond what its field can hold";
   }
   return "?";
 }
@@ -159,6 +183,7 @@ template <vocabulary V, class Names = default_names>
   for (auto const& c : r.changes)
     out += "; in " + name(c.type) + " agent " + name(c.part.agent) + " " + to_string(c.part.what()) + ": " +
            to_string(c.part, name);
+  for (auto const& type : r.disagreements) out += "; its sender believes otherwise of " + name(type);
   if (!r.imposed.empty()) out += "; imposed: " + to_string(r.imposed, name);
   return out;
 }
@@ -175,6 +200,7 @@ template <vocabulary V, class Names = default_names>
   out += d.own ? "; own task: " + to_string(*d.own, name) : std::string("; no task of its own");
   if (!d.deleted.empty()) out += "; silent agents were deleted: " + to_string(d.deleted, name);
   if (d.reign_ended) out += "; a reign has ended";
+  if (d.clock_set_back > duration{}) out += "; the clock was set back by " + to_string(d.clock_set_back);
   if (d.cycles > 0) out += "; cycles completed: " + std::to_string(d.cycles);
   if (d.detected) out += "; a loop with agent " + name(*d.detected) + " was detected";
   if (leads) out += d.reign_began ? "; the robot claims authority" : "; the robot leads";
