@@ -119,8 +119,7 @@ TEST_F(loops, joining_and_leaving_again_and_again_is_seen) {
                   return said;
                 },
                 20),
-            5)
-      << "four cycles: at first it was no part to restore";
+            4);
 }
 
 TEST_F(loops, yielding_for_a_moment_between_cycles_is_seen) {
@@ -132,8 +131,7 @@ TEST_F(loops, yielding_for_a_moment_between_cycles_is_seen) {
                   return said;
                 },
                 20),
-            5)
-      << "four cycles: at first it was no part to restore";
+            4);
 }
 
 }  // namespace

@@ -196,18 +196,8 @@ TEST(cycle_monitor, rule_iv_agreement_otherwise_starts_over) {
   standard r(2);
   r.put(b, b_defends);
   fights(r, 1);
-  r.hear(b, b_defends);  // b gives in, and says so twice: they agree
-  r.hear(b, b_defends);
+  r.hear(b, b_defends);  // b gave in: they agree
   fights(r, 1);
-}
-
-TEST(cycle_monitor, rule_iv_one_agreeing_message_between_cycles_changes_nothing) {
-  standard r(2);
-  r.put(b, b_defends);
-  fights(r, 1);
-  r.hear(b, b_defends);  // b yields for a moment, then retakes
-  r.hear(b, b_attacks);
-  EXPECT_TRUE(r.deliberate(b_defends).detected);
 }
 
 TEST(cycle_monitor, rule_v_a_third_agent_in_the_same_tick_hides_nothing) {
@@ -313,18 +303,40 @@ TEST(conflict_monitor, sees_a_sender_that_insists_and_is_never_given_the_same_tw
   }
 }
 
-TEST(insistence_monitor, counts_only_what_is_said_again_and_overridden_again) {
+/// b yields for a moment between, each time: two more are needed, as it may be changing its mind.
+TEST(conflict_monitor, sees_a_sender_that_yields_for_a_moment_each_time) {
+  both r(4);
+  r.put(b, b_defends);
+  for (int i = 1; i <= 6; ++i) {
+    r.hear(b, b_attacks);
+    EXPECT_EQ(r.deliberate(b_defends).detected.has_value(), i == 6) << i;
+    r.hear(b, b_defends);
+    EXPECT_FALSE(r.deliberate(b_defends).detected);
+  }
+}
+
+TEST(insistence_monitor, counts_only_what_is_said_again_and_was_not_given_once) {
   insistence r(3);
   r.put(b, b_defends);
   for (int i = 0; i < 10; ++i) {
+    for (int k = 0; k < 2; ++k) {
+      r.hear(b, b_attacks);
+      EXPECT_FALSE(r.deliberate(b_defends).detected) << i;
+    }
     r.hear(b, b_attacks);
-    EXPECT_FALSE(r.deliberate(b_defends).detected) << i;
-    r.hear(b, b_attacks);
-    EXPECT_FALSE(r.deliberate(b_attacks).detected) << "given way at last: nothing is left of it";
+    EXPECT_FALSE(r.deliberate(b_attacks).detected) << "given at last: nothing is left of it";
     r.hear(b, b_attacks);
     EXPECT_FALSE(r.deliberate(b_defends).detected);
-    r.hear(b, std::nullopt);
+    r.hear(b, b_supports);
     EXPECT_FALSE(r.deliberate(b_defends).detected) << "another mind";
+  }
+}
+
+TEST(insistence_monitor, to_have_no_task_is_no_insisting) {
+  insistence r(2);
+  for (int i = 0; i < 10; ++i) {
+    r.hear(b, std::nullopt);
+    EXPECT_FALSE(r.deliberate(b_defends).detected);
   }
 }
 
@@ -340,7 +352,7 @@ TEST(insistence_monitor, what_was_said_long_ago_counts_no_more) {
   insistence r(2);
   r.hear(b, b_attacks);
   EXPECT_FALSE(r.deliberate(b_defends).detected);
-  r.now = r.now + rota::seconds(2);
+  r.now = r.now + rota::seconds(3);
   r.hear(b, b_attacks);
   EXPECT_FALSE(r.deliberate(b_defends).detected);
 }

@@ -34,12 +34,7 @@ public:
       if (!agreeing && change.after == w->old_part) w->open = false;
       return;
     }
-    // A sender that agrees for a moment between two cycles still loops; one that goes on agreeing has given way.
-    if (agreeing) {
-      if (++w->agreed >= options_.patience) w->count = 0;
-    } else if (w->open) {
-      w->count = 0;
-    }
+    if (agreeing || w->open) w->count = 0;
     w->open = !agreeing;
     w->deliberated = false;
     w->old_part = change.before;
@@ -60,7 +55,6 @@ public:
         continue;
       }
       w.open = false;
-      w.agreed = 0;
       ++w.count;
       ++verdict.cycles;
       if (w.count >= options_.cycles && !verdict.detected) verdict.detected = w.sender;
@@ -83,7 +77,7 @@ public:
   template <class Digest>
   void digest_into(Digest& d) const {
     for (watch const& w : watches_) {
-      d(w.sender, w.old_part.has_value(), w.opened, w.count, w.agreed, w.open, w.deliberated);
+      d(w.sender, w.old_part.has_value(), w.opened, w.count, w.open, w.deliberated);
       if (w.old_part) d(w.old_part->plan, w.old_part->task);
     }
     d(watches_.size());
@@ -97,7 +91,6 @@ private:
     std::optional<in<V>> old_part{};  // what a cycle would restore, while open
     instant opened{};                 // when a message was last taken in
     std::uint32_t count = 0;          // subsequent cycles so far
-    std::uint32_t agreed = 0;         // agreeing messages since the last of them
     bool open = false;                // a message has changed the part, and no deliberation has restored it
     bool deliberated = false;         // a deliberation has run since, and has not restored it
     friend bool operator==(watch const&, watch const&) = default;

@@ -5,13 +5,17 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace rota {
 
-/// Counts how often a sender says the same of itself, and is overridden each time: n times in a row are a detection.
+/// Counts how often a sender says that it has a task and is overridden: n times the same task, without being given it once,
+/// are a detection, whatever else it says between. If what it says between is accepted, it may be changing its mind rightly:
+/// then it takes `monitor_options::yielding` times more.
 ///
 /// It sees conflicts that complete no cycle: b insists on task 1, while a gives it 3, then 2, then 3 again, so no part is
-/// ever restored. It does not see a sender that changes its mind; `cycle_monitor` does.
+/// ever restored; or b leaves between, or yields for a moment. It does not see a sender that never says the same twice;
+/// `cycle_monitor` does.
 template <vocabulary V = runtime_vocabulary>
 class insistence_monitor {
 public:
@@ -24,10 +28,8 @@ public:
   void on_message(part_change<V> const& change, instant now) {
     watch* w = lower(change.agent);
     if (w == watches_.end() || !(w->sender == change.agent)) w = watches_.insert(w, watch{.sender = change.agent});
-    if (w->said != change.after || now - w->heard > options_.pending_age) w->count = 0;
     w->said = change.after;
     w->heard = now;
-    w->unanswered = true;
   }
 
   /// The receiver has deliberated and now believes in `atoms`. On a detection everything is cleared.
@@ -35,12 +37,22 @@ public:
                                                    instant /*now*/) {
     monitor_verdict<V> verdict;
     for (watch& w : watches_) {
-      if (!w.unanswered) continue;
-      w.unanswered = false;
+      if (!w.said) continue;
+      auto const said = *std::exchange(w.said, std::nullopt);
       auto const believed = part_of<V>(atoms, w.sender);
-      bool const same = w.said ? !believed.empty() && believed.front() == *w.said : believed.empty();
-      w.count = same ? 0 : w.count + 1;
-      if (w.count >= options_.cycles && !verdict.detected) verdict.detected = w.sender;
+      bool const accepted = !believed.empty() && believed.front() == said;
+      bool const again = w.count > 0 && said == w.overridden && w.heard - w.last <= 2 * options_.pending_age;
+      if (accepted) {
+        w.yielded = true;
+        if (said == w.overridden) w.count = 0;
+        continue;
+      }
+      if (!again) w.yielded = false;
+      w.count = again ? w.count + 1 : 1;
+      w.overridden = said;
+      w.last = w.heard;
+      if (w.count >= options_.cycles + (w.yielded ? options_.yielding : 0) && !verdict.detected)
+        verdict.detected = w.sender;
     }
     if (verdict.detected) clear();
     return verdict;
@@ -54,13 +66,16 @@ public:
   }
   /// Moves all instants by d: the clock has been set.
   void shift(duration d) noexcept {
-    for (watch& w : watches_) w.heard = w.heard + d;
+    for (watch& w : watches_) {
+      w.heard = w.heard + d;
+      w.last = w.last + d;
+    }
   }
 
   template <class Digest>
   void digest_into(Digest& d) const {
     for (watch const& w : watches_) {
-      d(w.sender, w.said.has_value(), w.heard, w.count, w.unanswered);
+      d(w.sender, w.said.has_value(), w.heard, w.count, w.last, w.overridden.plan, w.overridden.task);
       if (w.said) d(w.said->plan, w.said->task);
     }
     d(watches_.size());
@@ -71,10 +86,12 @@ private:
   /// What the monitor remembers about one sender.
   struct watch {
     agent_id sender{};
-    std::optional<in<V>> said{};
+    std::optional<in<V>> said{};  // since the last deliberation; what it says of having no task is no insisting
     instant heard{};
-    std::uint32_t count = 0;  // so often in a row it said so and was overridden
-    bool unanswered = false;  // no deliberation has run since
+    in<V> overridden{};       // what it said before and was not given
+    instant last{};           // when it last said so
+    bool yielded = false;     // it said something else between that was accepted
+    std::uint32_t count = 0;  // so often in a row, whatever else it said between
     friend bool operator==(watch const&, watch const&) = default;
   };
 

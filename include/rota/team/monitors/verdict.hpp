@@ -13,7 +13,7 @@ namespace rota {
 struct monitor_options {
   std::uint32_t cycles = 4;  ///< n of the paper: after so many subsequent cycles the conflict counts as lasting
   duration pending_age = seconds(1);  ///< what no deliberation has answered for so long is forgotten, counts included
-  std::uint32_t patience = 2;  ///< so many agreeing messages of a sender in a row, with no cycle between, end its count
+  std::uint32_t yielding = 2;         ///< `insistence_monitor`: so many more, if the sender yields between
 
   friend bool operator==(monitor_options const&, monitor_options const&) = default;
 };
