@@ -11,7 +11,9 @@ namespace rota {
 /// By how much a new allocation must beat the running one, which stays while
 /// U(best) − change costs ≤ U(current) + h, h = absolute + relative·|U(current)|.
 ///
-/// An h that is infinite or beyond `max_utility` is one that nothing beats.
+/// Choose it, or `problem::change_cost`, about as large as the noise in the utilities. With both at 0, agents that are equally
+/// good swap tasks at almost every tick.
+/// Nothing beats an h that is infinite or beyond `max_utility`.
 struct hysteresis {
   std::optional<double> absolute{};  ///< unset: the running plan's own `hysteresis()`; @pre not negative, not NaN
   double relative = 0;               ///< a share of the current utility; @pre not negative, not NaN
