@@ -27,7 +27,7 @@ namespace detail {
 inline constexpr fixed_utility unbeatable{(std::numeric_limits<std::int64_t>::max)()};
 
 /// h as a fixed-point gain. @pre not negative, not NaN
-[[nodiscard]] constexpr fixed_utility margin_of(double h) noexcept {
+[[nodiscard]] constexpr fixed_utility margin_of(double const& h) noexcept {
   ROTA_ASSERT(!is_nan(h) && !(h < 0));
   auto const fixed = quantise(h);
   return fixed && fixed.value().units >= 0 ? fixed.value() : unbeatable;

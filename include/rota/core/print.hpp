@@ -81,7 +81,7 @@ concept has_floating_to_chars = requires(char* p, T x) { std::to_chars(p, p, x, 
 /// x in decimal, in the fewest digits from which the same double is read back, whatever the locale: `-1234.5`, `1e+16`,
 /// `inf`, `nan`.
 template <std::same_as<double> T>
-[[nodiscard]] std::string number(T x) {
+[[nodiscard]] std::string number(T const& x) {
   auto const bits = std::bit_cast<std::uint64_t>(x);  // not std::isnan: -ffast-math folds it to false
   auto const magnitude = bits & ~(std::uint64_t{1} << 63);
   constexpr std::uint64_t infinity = 0x7ff0'0000'0000'0000;

@@ -3,11 +3,11 @@
 /// Numbers in, assignment and proof out: for those who have a matrix and no plan.
 
 #include <rota/allocation/problem.hpp>
+#include <rota/core/finite.hpp>
 #include <rota/core/result.hpp>
 #include <rota/dense/flow/solver.hpp>
 #include <rota/dense/ties.hpp>
 #include <rota/model/cardinality.hpp>
-#include <rota/model/detail/finite.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -101,7 +101,7 @@ namespace detail {
   return whole + static_cast<int>(rest >= 0.5) - static_cast<int>(rest <= -0.5);
 }
 
-[[nodiscard]] constexpr bool forbids(assign_options const& options, double x) noexcept {
+[[nodiscard]] constexpr bool forbids(assign_options const& options, double const& x) noexcept {
   if (!options.forbidden) return false;
   if (is_finite(x)) return x == *options.forbidden;
   return is_nan(x) ? is_nan(*options.forbidden)

@@ -87,7 +87,7 @@ private:
     p.name = out_.name;
     p.team_size = read_bounds(top, id, false);
     auto threshold = top.real("utilityThreshold");
-    if (threshold.value && !(*threshold.value >= 0 && rota::detail::is_finite(*threshold.value)))
+    if (threshold.value && !(rota::detail::is_finite(*threshold.value) && *threshold.value >= 0))
       threshold = {{}, "negative or no finite number"};
     p.utility_threshold = take(std::move(threshold), top, "utilityThreshold", id).value_or(0);
     if (auto const pre = take(top.precondition(), top, "preCondition", id)) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <rota/adapters/alica/model.hpp>
-#include <rota/model/detail/finite.hpp>
+#include <rota/core/finite.hpp>
 
 #include <algorithm>
 #include <charconv>

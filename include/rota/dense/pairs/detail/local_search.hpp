@@ -1,7 +1,7 @@
 #pragma once
 
+#include <rota/core/size.hpp>
 #include <rota/dense/buffer.hpp>
-#include <rota/dense/detail/size.hpp>
 #include <rota/dense/pairs/detail/model.hpp>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ private:
     std::uint64_t z = random += 0x9e3779b97f4a7c15U;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return detail::to_size(((z ^ (z >> 31)) >> 32) * n >> 32);
+    return rota::detail::to_size(((z ^ (z >> 31)) >> 32) * n >> 32);
   }
 
   /// gain_[a, x] ← what a is worth in x, the others staying where they are.

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <rota/core/size.hpp>
 #include <rota/dense/buffer.hpp>
-#include <rota/dense/detail/size.hpp>
 #include <rota/dense/pairs/detail/suffix_bounds.hpp>
 
 #include <algorithm>
@@ -94,7 +94,7 @@ public:
   /// The state of a node at depth d with these counts. Good until the next call.
   state& at(std::size_t d, packed_counts placed) {
     std::uint64_t const mixed = (placed + d * 0x9e3779b97f4a7c15U) * 0xd1342543de82ef95U;
-    state& s = states_[detail::to_size(mixed >> shift_)];
+    state& s = states_[rota::detail::to_size(mixed >> shift_)];
     if (s.key != placed || s.stamp != (epoch_ << 7) + d) [[unlikely]]
       make(s, d, placed);
     return s;
