@@ -139,6 +139,8 @@ template <class Bytes>
 /// is nested in it), whatever string type it returns. Without one it prints the number of an enumeration, an integer or
 /// a `strong_id`, and bytes in hexadecimal; "?" for anything else.
 struct default_names {
+  static constexpr char const* unknown = "?";
+
   template <class Id>
   [[nodiscard]] std::string operator()(Id const& id) const {
     if constexpr (detail::beside::printable<Id>) {
@@ -152,7 +154,7 @@ struct default_names {
     } else if constexpr (requires { static_cast<unsigned char>(id[id.size() - 1]); }) {
       return detail::hexadecimal(id);
     } else {
-      return "?";
+      return unknown;
     }
   }
 };
