@@ -33,6 +33,8 @@ int main() {
                                   .hysteresis = hysteresis});
     ok = ok && !made;
   }
+  rota::hysteresis const endless{.relative = infinite};
+  ok = ok && !rota::detail::beats({1}, {0}, rota::detail::margin_of(endless, 0, {0}));
   std::printf("NaN and infinity are %s\n", ok ? "refused" : "taken");
   return ok ? 0 : 1;
 }

@@ -28,7 +28,11 @@ inline constexpr fixed_utility unbeatable{(std::numeric_limits<std::int64_t>::ma
 
 /// h as a fixed-point gain. @pre not negative, not NaN
 [[nodiscard]] constexpr fixed_utility margin_of(double const& h) noexcept {
-  ROTA_ASSERT(!is_nan(h) && !(h < 0));
+  if (!is_finite(h)) {  // before any comparison, which -ffast-math makes void
+    ROTA_ASSERT(!is_nan(h) && !has_minus_sign(h));
+    return unbeatable;
+  }
+  ROTA_ASSERT(h >= 0);
   auto const fixed = quantise(h);
   return fixed && fixed.value().units >= 0 ? fixed.value() : unbeatable;
 }
