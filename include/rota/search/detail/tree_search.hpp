@@ -26,6 +26,7 @@ struct rejections {
   bool precondition_threw = false;
 
   void note(appraisal<V> const& a) {
+    if (a.worth) return;
     if (!fault) fault = a.fault;
     if (a.negative_utility)
       negative_utility = (std::max)(negative_utility.value_or(*a.negative_utility), *a.negative_utility);
