@@ -114,8 +114,8 @@ public:
     if (obeying()) phase_ = phase::released;
   }
 
-  /// Takes in what the leader has deliberated. A changed allocation is a new version. The claim is due at once if it is new
-  /// or was never sent. @pre `leading()`
+  /// Takes in what the leader has deliberated. A changed allocation is a new version. The claim is due at once if it
+  /// changed or was never sent. @pre `leading()`
   void revise(allocation_atoms<V> const& atoms, instant now) {
     ROTA_ASSERT(leading());
     if (claim_.atoms == atoms && said_) return;

@@ -70,8 +70,8 @@ struct [[nodiscard]] decision {
   std::optional<typename V::agent> detected{};  ///< the sender of the n-th subsequent cycle, if the monitor fired
   bool reign_began = false;                     ///< the robot claims authority from now on
   bool reign_ended = false;                     ///< a reign has ended since the last deliberation
-  small_vector<typename V::plan_type, 4>
-      executed;  ///< if `not_executing`: the types that the robot executes, ascending
+  /// The plan types that the robot executes, ascending; filled only if the reason is `not_executing`.
+  small_vector<typename V::plan_type, 4> executed;
 
   /// e_r, what the search changed; empty if nothing changed or nothing was searched.
   [[nodiscard]] rota::event<in<V>> const& event() const& noexcept { return search ? search->event : nothing; }

@@ -22,9 +22,8 @@ struct monitor_options {
 /// What a monitor says about one deliberation.
 template <vocabulary V>
 struct monitor_verdict {
-  std::uint32_t cycles = 0;  ///< cycles that this deliberation completed
-  std::optional<typename V::agent>
-      detected;  ///< the sender whose n-th subsequent cycle this was; the least, if several
+  std::uint32_t cycles = 0;                     ///< cycles that this deliberation completed
+  std::optional<typename V::agent> detected{};  ///< the sender whose n-th subsequent cycle it was, the least of several
 };
 
 /// The default monitor: one counter per sender. Lost messages, duplicates and third agents do not disturb it.
@@ -120,7 +119,7 @@ private:
 /// Def. 5 to the letter, with one counter per plan type: to reproduce and to compare, not to use.
 ///
 /// It compares every pending message event with the next reallocation. A cycle counts; anything else sets the counter to 0.
-/// Therefore one change of a third robot in the same deliberation hides a loop for ever.
+/// Therefore a third robot that keeps changing in the same deliberations hides a loop for ever.
 template <vocabulary V = runtime_vocabulary>
 class literal_monitor {
 public:

@@ -194,6 +194,7 @@ public:
       here.current = t->believed.atoms().atoms();
       here.change_cost = options_.change_cost;
       auto const& next = d.search.emplace(reallocate(here, options_.hysteresis, space, budget));
+      ROTA_ASSERT(t->knows(next.atoms));  // or else another plan type was entered under this id
       t->adopt(next.atoms, next.event);
       d.reason = !next.plan           ? decision_reason::no_valid_allocation
                  : next.event.empty() ? decision_reason::kept

@@ -4,6 +4,8 @@
 #include <rota/team/authority.hpp>
 #include <rota/team/belief.hpp>
 
+#include <algorithm>
+
 namespace rota::detail {
 
 /// What a robot knows of one plan type that it executes or has executed. It is kept after leaving the type: claim numbers
@@ -65,6 +67,10 @@ struct track {
     believed.admit(c.leader, now);
     for (in<V> const& x : c.atoms)
       if (!believed.takes_part(x.agent)) believed.admit(x.agent, now);
+  }
+  /// Whether the entered plan type has every plan and task of this allocation.
+  [[nodiscard]] bool knows(allocation_atoms<V> const& atoms) const {
+    return std::all_of(atoms.begin(), atoms.end(), [&](in<V> const& x) { return names.find(x.plan, x.task); });
   }
   /// Adopts an allocation. Whoever gets a new task is taken to begin in its entry state.
   /// @pre `e` leads from the believed allocation to `atoms`
