@@ -2,7 +2,7 @@
 
 #include <rota/model/allocation.hpp>
 #include <rota/model/cardinality.hpp>
-#include <rota/model/detail/parts.hpp>
+#include <rota/model/parts.hpp>
 #include <rota/model/utility.hpp>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <rota/allocation/detail/guarded.hpp>
 #include <rota/allocation/fixed_point.hpp>
+#include <rota/allocation/guarded.hpp>
 #include <rota/allocation/problem.hpp>
-#include <rota/model/detail/parts.hpp>
+#include <rota/model/parts.hpp>
 
 #include <algorithm>
 #include <concepts>
