@@ -69,12 +69,12 @@ public:
   /// The atoms of an assignment, or of its first agents; valid until the next call.
   [[nodiscard]] allocation_view<V> atoms(std::span<dense::slot const> assignment) {
     auto const tasks = plan.tasks();
-    auto const* agent = problem.participants.data();
+    auto const* who = problem.participants.data();
     atoms_.clear();
     atoms_.append(assignment.size(), [&, id = plan.id()](in<V>* out) {
       for (auto const s : assignment) {
-        if (s < tasks.size()) *out++ = {*agent, id, tasks[s].task};
-        ++agent;
+        if (s < tasks.size()) *out++ = {*who, id, tasks[s].task};
+        ++who;
       }
       return out;
     });
