@@ -1,7 +1,7 @@
 #pragma once
 
 #include <rota/core/config.hpp>
-#include <rota/dense/detail/hidden.hpp>
+#include <rota/dense/hidden.hpp>
 #include <rota/dense/limits.hpp>
 #include <rota/dense/pairs/instance.hpp>
 
@@ -46,7 +46,7 @@ public:
   [[nodiscard]] std::span<pair_tally const> account() const noexcept;
 
 private:
-  detail::hidden<detail::pair_search> search_;
+  hidden<detail::pair_search> search_;
 };
 
 }  // namespace rota::dense
