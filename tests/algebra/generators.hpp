@@ -1,6 +1,6 @@
 #pragma once
-/// rapidcheck generators over the first n atoms of `universe`. Unlike those of rota/testing/, they take n: the operands of
-/// a test share it, it may be as large as a dense universe, and 24 atoms already leave inline storage.
+/// rapidcheck generators over the first n atoms of `universe`. Unlike those of rota/testing/, they take n: the operands
+/// of a test share it, it may be as large as a dense universe, and 24 atoms already leave inline storage.
 ///
 /// Defined in a unit of their own, because generators cost more to compile than properties.
 

@@ -1,6 +1,6 @@
 #pragma once
-/// All cases over tiny universes, and the definitions spelt out atom by atom. Nothing is generated: a law that holds here
-/// holds in every case. The script tests/mutations shows that these laws notice a break in any function.
+/// All cases over tiny universes, and the definitions written out at each atom. Nothing is generated, so a law that holds
+/// here holds in every case. The script tests/mutations shows that these laws notice a break in any function.
 
 #include <rota/algebra/delta.hpp>
 #include <rota/algebra/event.hpp>
@@ -93,7 +93,7 @@ inline std::vector<delta> deltas(std::vector<std::size_t> const& atoms, int boun
   return all;
 }
 
-/// All beliefs about the first so many agents: each has one of six atoms, or none.
+/// All beliefs about the first `agents` agents: each agent has one of six atoms, or none.
 inline std::vector<atom_set> beliefs(std::size_t agents) {
   std::vector<atom_set> all{{}};
   for (std::size_t a = 0; a < agents; ++a) {
@@ -120,7 +120,7 @@ inline std::vector<atom> part(atom_set const& c, names::agent b) {
   return atoms;
 }
 
-/// Counts cases that break a law, and shows the first. An EXPECT per case would cost more than the cases.
+/// Counts the cases that break a law, and shows the first. An EXPECT per case would cost more than the cases.
 struct law {
   explicit law(char const* equation) : equation_(equation) {}
   law(law const&) = delete;

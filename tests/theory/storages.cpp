@@ -140,7 +140,8 @@ TEST(every_size, composes_adds_differs_and_applies_pointwise) {
   words next;
   for (std::size_t const m : {0u, 1u, 2u, 7u, 8u, 9u, 16u, 31u, 64u, 200u, 1000u})
     for (std::size_t const n : {0u, 1u, 3u, 8u, 17u, 33u, 64u, 65u, 127u, 500u, 1000u}) {
-      auto const range = 3 * std::max(m, n) + 1;  // one for both, so that a short one lies all over a long one
+      auto const range =
+          3 * std::max(m, n) + 1;  // one range for both, so that the atoms of a short event are spread over a long one
       auto const e = random_event(next, m, range);
       auto const f = random_event(next, n, range);
       numbers sum;
