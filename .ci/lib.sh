@@ -5,10 +5,13 @@ export DEBIAN_FRONTEND=noninteractive
 
 compiler_packages=(g++ cmake ninja-build)
 library_packages=(libboost-dev libeigen3-dev nlohmann-json3-dev libpugixml-dev libcli11-dev)
-test_packages=(libgtest-dev librapidcheck-dev z3 libglpk-dev)
+test_packages=(libgtest-dev librapidcheck-dev z3 libglpk-dev meson pkg-config)
 benchmark_packages=(libbenchmark-dev libroaring-dev)
 # Of the allocation search; about 50 MB and 93 packages on a bare machine, most of them what libgecode-dev draws in.
 peer_packages=(liblemon-dev libglpk-dev coinor-libcbc-dev libgecode-dev toulbar2 gringo)
+# Of tests/floor; about 500 MB on a bare machine, most of it the cross compilers.
+floor_packages=(g++-11 clang-15 clang-16 clang-19 libc++-19-dev libc++abi-19-dev g++-aarch64-linux-gnu g++-i686-linux-gnu
+  gcc-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-user)
 heavy_packages=(clang-19 libclang-rt-19-dev clang-format-19 clang-tidy-19 git)
 
 say() { printf '\n== %s\n' "$*"; }

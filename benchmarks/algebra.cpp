@@ -1,7 +1,7 @@
-// Composition, difference, application and the group, beside what one would write without the library.
+// Composition, difference, apply and the group, compared with code that does not use the library.
 //
-// `atoms:N`: N additions and N subtractions a side, 64-bit atoms, a quarter of them shared. `bits:N`: bit planes over N atoms,
-// a quarter of them added and a quarter subtracted. A row with `peer:` does the same work on the same inputs.
+// `atoms:N`: N additions and N subtractions a side, 64-bit atoms, a quarter of them shared. `bits:N`: bit planes over N
+// atoms, a quarter of them added and a quarter subtracted. A row with `peer:` does the same work on the same inputs.
 
 #include "support.hpp"
 
@@ -32,7 +32,7 @@ using delta = rota::delta<atom>;
 using atoms = rota::atom_set<atom>;
 using sorted = std::vector<atom>;
 
-/// Two sets that Def. 3 calls an event.
+/// An event as the two sets of Def. 3.
 template <class Set>
 struct naive_event {
   Set plus;
@@ -49,7 +49,7 @@ naive_event<Set> to_naive(event const& e) {
   return {to<Set>(e.additions()), to<Set>(e.subtractions())};
 }
 
-/// Def. 4 as it stands in the paper.
+/// Def. 4 as the paper writes it.
 template <class Set>
 naive_event<Set> compose_naive(naive_event<Set> const& e, naive_event<Set> const& f) {
   auto part = [](Set const& in, Set const& in_too, Set const& out, Set const& out_too) {
@@ -91,7 +91,7 @@ event random_event(std::mt19937_64& random, std::size_t n, std::size_t atoms_in_
 
 using pair_of_events = std::pair<event, event>;
 
-/// So many pairs that the branch predictor cannot learn them, and few enough to stay in the cache.
+/// Too many pairs for the branch predictor to learn, and few enough to stay in the cache.
 std::vector<pair_of_events> event_pairs(std::size_t n, std::size_t atoms_in_all) {
   auto random = seeded();
   std::vector<pair_of_events> pairs;
@@ -143,7 +143,7 @@ sparse_vector to_eigen(event const& e, std::size_t atoms_in_all) {
 sparse_vector compose_eigen(sparse_vector const& e, sparse_vector const& f) {
   sparse_vector r = e + f;
   r.coeffs() = r.coeffs().min(1).max(-1);
-  r.prune(1);  // what is much smaller than 1: zeros
+  r.prune(1);  // drops entries much smaller than 1, the zeros
   return r;
 }
 void compose_sparse_vectors(benchmark::State& state) {
@@ -158,7 +158,7 @@ void compose_sparse_vectors(benchmark::State& state) {
   rotate(state, inputs, [](auto const& p) { return compose_eigen(p.first, p.second); });
 }
 
-/// Compressed bitmaps, which are made for large sets of 32-bit numbers.
+/// Compressed bitmaps, which are designed for large sets of 32-bit numbers.
 struct roaring_free {
   void operator()(roaring_bitmap_t* b) const { roaring_bitmap_free(b); }
 };
@@ -192,7 +192,7 @@ void compose_roaring(benchmark::State& state) {
   rotate(state, inputs, [](auto const& p) { return compose_bitmaps(p.first, p.second); });
 }
 
-/// What no composition can beat by much: reading both events and writing as many bytes.
+/// A lower bound for any composition: read both events and write as many bytes.
 void copy_inputs(benchmark::State& state, std::vector<pair_of_events> const& pairs) {
   std::vector<event::entry> out(pairs.front().first.size() + pairs.front().second.size());
   rotate(state, pairs, [&](auto const& p) {
@@ -238,7 +238,7 @@ template <std::size_t Bits>
 void compose_fixed(benchmark::State& state) {
   compose_fixed_planes<Bits>(state, plane_pairs(state));
 }
-/// Planes over a universe that is known at run time only.
+/// Planes over a universe that is known only at run time.
 void compose_dense(benchmark::State& state) {
   std::vector<atom> numbers(size_of(state));
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;

@@ -129,7 +129,7 @@ void tick_agreeing(benchmark::State& state) {
   for (std::uint64_t b = 0; b < robots; ++b) does[b] = s.task_of(b);
   std::uint64_t b = 0;
   counted(state, [&] {
-    s.now = s.now + tick;
+    s.now += tick;
     b = b % (robots - 1) + 1;
     s.hear(b, does[b]);
     return s.deliberate();
@@ -146,7 +146,7 @@ void tick_quarrelling(benchmark::State& state) {
   std::uint64_t b = 0;
   std::uint64_t cycles = 0;
   counted(state, [&] {
-    s.now = s.now + tick;
+    s.now += tick;
     b = b % (robots - 1) + 1;
     s.hear(b, vocabulary::task{s.task_of(b) == vocabulary::task{1} ? 2u : 1u});
     auto d = s.deliberate();
@@ -180,7 +180,7 @@ void monitor_step(benchmark::State& state) {
   std::size_t b = 0;
   std::uint64_t detections = 0;
   counted(state, [&] {
-    now = now + tick;
+    now += tick;
     b = b + 1 == robots ? 1 : b + 1;
     monitor.on_message(leave[b], now);
     auto const v = monitor.on_deliberation(nothing, atoms, now);

@@ -44,11 +44,11 @@ int main() {
   players[1].next_tick = rota::instant{} + rota::milliseconds(13);
 
   bool ruled = false;
-  for (rota::instant now{}; now < rota::instant{} + rota::seconds(1); now = now + rota::milliseconds(1)) {
+  for (rota::instant now{}; now < rota::instant{} + rota::seconds(1); now += rota::milliseconds(1)) {
     for (auto& me : players) {
       auto& other = &me == players ? players[1] : players[0];
       if (now >= me.next_tick) {
-        me.next_tick = me.next_tick + rota::milliseconds(30);
+        me.next_tick += rota::milliseconds(30);
         auto const d = me.robot.deliberate(play, members, me.sees, now, me.space);
         if (d.detected || (d.reason == rota::decision_reason::obeyed && !ruled))
           std::printf("%s, %s: %s\n", to_string(now).c_str(), to_string(me.robot.self()), describe(d).c_str());

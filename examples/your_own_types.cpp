@@ -1,8 +1,8 @@
-// Two event types that rota does not know, and the sets that they act on, put under the laws from outside: one trait, one
-// generator, one line each.
+// Two event types that rota does not know, and the sets that they act on, tested by its laws. Each needs one trait, one
+// generator and one line.
 //
 //   ./your_own_types --gtest_list_tests            every law by name
-//   RC_PARAMS="seed=7" ./your_own_types            another seed; a refutation says which one it was found with
+//   RC_PARAMS="seed=7" ./your_own_types            another seed; a refutation says which seed found it
 
 #include <rota/testing/gtest.hpp>
 #include <rota/testing/values.hpp>
@@ -26,7 +26,7 @@ struct post {
   friend std::ostream& operator<<(std::ostream& out, post const& x) { return out << x.robot << ":" << x.task; }
 };
 
-/// Which atoms the laws draw: 24, ascending, here four of each robot.
+/// The 24 atoms that the laws draw, ascending: four of each robot.
 template <>
 struct rota::testing::sample_atoms<post> {
   static post nth(std::size_t i) { return {"robot " + std::to_string(i / 4), "task " + std::to_string(i % 4)}; }
@@ -55,7 +55,7 @@ struct rota::structure<post_event> {
   }
   static constexpr bool commutative = true;  // and not associative: no event is
 
-  // What makes it an event: the class invariant, and the sign function.
+  // The class invariant and the sign function make it an event.
   static bool valid(post_event const& e) {
     for (auto const& [x, s] : e.signs)
       if (s != 1 && s != -1) return false;
@@ -181,12 +181,12 @@ struct rc::Arbitrary<bit_event> {
   }
 };
 
-// Every law that these two claim, each a test of its own: post_event.allocation_event.idempotent and so on, those of
-// Def. 3 and 4, of apply, of runs, and of Def. 5.
+// Every law that these two claim becomes a test, such as post_event.allocation_event.idempotent: the laws of Def. 3 and
+// 4, of apply, of runs, and of Def. 5.
 auto const post_laws = rota::testing::register_laws<post_event>("post_event");
 auto const bit_laws = rota::testing::register_laws<bit_event>("bit_event");
 
-// Neither is a group. A bundle can be asked without GoogleTest, too: the answer maps each broken law to a counterexample.
+// Neither is a group. `broken_laws` runs a bundle without GoogleTest and maps each broken law to a counterexample.
 TEST(post_event, is_no_group_and_this_is_why) {
   auto const broken = rota::testing::broken_laws(rota::testing::abelian_group_laws<post_event>());
   ASSERT_EQ(broken.size(), 1u);
@@ -194,7 +194,7 @@ TEST(post_event, is_no_group_and_this_is_why) {
   std::printf("%s\n", broken.begin()->second.c_str());
 }
 
-// And bundles notice: were events applied without asking whether they are applicable, one law would say so.
+// Bundles notice mistakes: if events were applied without asking whether they are applicable, one law would fail.
 struct applies_anyway : rota::structure<bit_event> {
   static rota::result<bits, rota::inapplicable<std::size_t>> apply(bit_event const& e, bits const& c) {
     return (c & ~e.minus) | e.plus;

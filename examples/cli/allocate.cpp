@@ -23,7 +23,7 @@ namespace {
 
 using atom = in<vocabulary>;
 
-/// Everything a report needs. Views what it is made from.
+/// Everything that a report needs. A view.
 struct question {
   target const& where;
   roster const& who;
@@ -103,7 +103,7 @@ std::string explain(plan_refusal<vocabulary> const& r, question const& q) {
   return q.where.name(p) + ": " + why;
 }
 
-/// What an agent at a task counts, as a utility or as a cost.
+/// The utility or the cost of an agent at a task, as it counts.
 double counted_cell(question const& q, atom const& x) {
   return in_steps(q.worth(q.who.name(x.agent), x.plan, x.task).value_or(0));
 }
@@ -121,7 +121,7 @@ std::vector<std::string> idle_agents(question const& q, allocation_atoms<vocabul
   return idle;
 }
 
-/// What a running team would do about it.
+/// Whether a running team would change to this allocation.
 named_decision decide(question const& q, solution<vocabulary> const& s) {
   auto const r = reallocate<vocabulary, no_beliefs>(q.problem, hysteresis{}, s);
   auto const gain = [&](std::string const& compared) -> std::string {
@@ -158,14 +158,14 @@ named_answer named(question const& q, solution<vocabulary> const& s) {
   out.gap = s.gap;
   for (atom const& x : s.atoms) out.assignment.emplace_back(q.who.name(x.agent), q.task(x));
   out.idle = idle_agents(q, s.atoms);
-  if (!q.has_current) return out;  // nothing to compare with: nothing is added or removed
+  if (!q.has_current) return out;  // without a current allocation nothing is added or removed
   for (auto const& x : difference(q.current, s.atoms))
     (x.value == sign::plus ? out.added : out.removed).push_back(named(q, x.atom));
   out.decision = decide(q, s);
   return out;
 }
 
-/// The clauses of validity: what the validator found, and what there is to find.
+/// One line per clause of validity: whether it holds, and on which numbers.
 std::string clauses(question const& q, solution<vocabulary> const& s, validity_report<vocabulary> const& report) {
   auto const& p = *q.type.find(s.plan);
   auto const& file = q.where.plan(s.plan);

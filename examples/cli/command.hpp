@@ -13,7 +13,7 @@ namespace rota::cli {
 /// How the program ends.
 enum exit_status : int {
   success = 0,
-  negative = 1,  ///< an honest "no": errors found in files, no valid allocation
+  negative = 1,  ///< the answer is no: errors found in files, no valid allocation
   misuse = 2     ///< the command line or an input file is wrong
 };
 
@@ -25,7 +25,7 @@ public:
       : std::runtime_error(file + (place.empty() ? "" : ':' + place) + ": " + reason) {}
 };
 
-/// What a subcommand yields: the whole output, written at once or not at all, and the exit status.
+/// The result of a subcommand: its exit status and its whole output, which is written at once or not at all.
 struct outcome {
   std::string output;
   exit_status status = success;
@@ -34,7 +34,7 @@ struct outcome {
 /// The subcommand that the command line chose, with its options.
 using command = std::function<outcome()>;
 
-/// Reads the command line. Where it asks for help or the version, prints that and ends. Throws `input_error`.
+/// Reads the command line. If it asks for help or the version, prints that and ends. Throws `input_error`.
 [[nodiscard]] command parse_command_line(int argc, char** argv);
 
 // The subcommands, one file each. They know nothing of the command line.
@@ -47,7 +47,7 @@ struct check_options {
 
 struct allocate_options {
   std::vector<std::string> plans;
-  std::string plan_type;  ///< empty: to be found
+  std::string plan_type;  ///< empty: find it
   std::string utilities;
   std::string current;    ///< empty: none
   bool minimise = false;  ///< the table holds costs
@@ -72,7 +72,7 @@ struct simulate_options {
   std::string resolution = "on";
   bool json = false;
 };
-/// The options where the command line is silent: those of the simulation.
+/// The defaults, which are those of the simulation.
 [[nodiscard]] simulate_options default_simulation();
 [[nodiscard]] outcome run_simulate(simulate_options const& o);
 

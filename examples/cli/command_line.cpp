@@ -14,7 +14,7 @@
 namespace rota::cli {
 namespace {
 
-/// An option whose value is empty is a mistake of the calling script, not one that was left out.
+/// An empty value is a mistake of the calling script; the option was not left out.
 std::string check_not_empty(std::string const& text) { return text.empty() ? "an empty value" : ""; }
 
 /// Whether the text is a plain decimal number within these bounds. CLI11's own conversion takes "0x1" and "nan", wraps
@@ -24,11 +24,11 @@ bool is_within(std::string const& text, Number low, Number high) {
   Number x{};
   auto const* const end = text.data() + text.size();
   auto const [rest, error] = std::from_chars(text.data(), end, x);
-  bool const octal = std::is_integral_v<Number> && text.size() > 1 && text.front() == '0';  // to CLI11
+  bool const octal = std::is_integral_v<Number> && text.size() > 1 && text.front() == '0';  // CLI11 would read it so
   return error == std::errc{} && rest == end && x >= low && x <= high && !octal;
 }
 
-/// A check of CLI11 for numbers of one kind, which the words describe.
+/// A check for CLI11: is the text a number between these? `what` describes such numbers.
 template <class Number>
 auto within(Number low, Number high, std::string const& what) {
   return [=](std::string const& text) {
@@ -40,7 +40,7 @@ std::string check_seed(std::string const& text) {
   return within(std::uint64_t{0}, UINT64_MAX, "a whole number from 0 to 18446744073709551615")(text);
 }
 
-/// Adds a subcommand whose callback chooses `run` with the options that were read by then.
+/// Adds a subcommand. If the command line names it, `run` is called with the options that were read.
 template <class Options>
 CLI::App& add(CLI::App& program, command& chosen, std::shared_ptr<Options> const& o, outcome (*run)(Options const&),
               std::string const& name, std::string const& description) {
@@ -154,7 +154,7 @@ command parse_command_line(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& e) {
-    if (e.get_exit_code() == 0) std::exit(program.exit(e));  // prints what --help or --version ask for
+    if (e.get_exit_code() == 0) std::exit(program.exit(e));  // after printing the help or the version
     throw input_error(std::string(e.what()) + " (see rota --help)");
   }
   return chosen;

@@ -21,7 +21,7 @@ using alica::severity;
 using alica::detail::in_quotes;
 using nlohmann::ordered_json;
 
-// Objects are filled member by member: nested braces would cost the compiler twenty times as much.
+// Objects are filled member by member, because nested braces take the compiler twenty times as long.
 
 template <class T>
 ordered_json or_null(std::optional<T> const& x) {
@@ -34,7 +34,7 @@ ordered_json word(Enum e) {
   return e == Enum::none ? ordered_json(nullptr) : ordered_json(to_string(e));
 }
 
-/// A list with one entry for each of these.
+/// A list with one entry for each item.
 template <class Range, class Convert>
 ordered_json list_of(Range const& all, Convert const& convert) {
   auto out = ordered_json::array();
@@ -238,7 +238,7 @@ named_allocation read_allocation(std::string const& file) {
   need(tree.is_object(), "/", "not an allocation: a JSON object is expected");
   for (auto const& [key, value] : tree.items()) {
     using type = nlohmann::json::value_t;
-    // What the program prints beside the allocation itself is not used, but it must be what it claims to be.
+    // The program does not use what it prints beside the allocation, but checks its types.
     static std::map<std::string, type, std::less<>> const keys = {
         {"plan", type::discarded},    {"utility", type::number_float}, {"optimal", type::boolean},
         {"cost", type::number_float}, {"assignment", type::array},     {"idle", type::array},

@@ -14,18 +14,18 @@ namespace rota::cli {
 
 struct evaluation;
 
-// All JSON of the program is written, and read, by one file: the library is slow to compile.
+// One file writes and reads all JSON of the program, because the JSON library is slow to compile.
 
-/// What plan files hold and what is wrong with them.
+/// The content of plan files, and what is wrong with them.
 [[nodiscard]] std::string as_json(alica::model const& m);
 
 struct named_change {
   std::string agent;
-  std::optional<std::string> plan;  ///< where there are several
+  std::optional<std::string> plan;  ///< if there are several plans
   std::string task;
 };
 
-/// What a running team would do: it does not always change to the best.
+/// What a running team would do. It does not always change to the best allocation.
 struct named_decision {
   bool keep = false;
   std::string reason;
@@ -43,7 +43,7 @@ struct named_answer {
   double utility = 0;
   std::optional<double> cost;  ///< instead of the utility, where the table holds costs
   bool optimal = false;
-  double gap = 0;  ///< how far the best may be, if this is not proved to be it
+  double gap = 0;  ///< if it is not proved optimal: the optimum is better by no more than this
   std::vector<std::pair<std::string, std::string>> assignment;  ///< agent, task
   std::vector<std::string> idle;
   std::vector<named_change> added;
@@ -53,10 +53,10 @@ struct named_answer {
 };
 [[nodiscard]] std::string as_json(named_answer const& a);
 
-/// Instead of an answer: there is no valid allocation.
+/// Instead of an answer, if there is no valid allocation.
 [[nodiscard]] std::string refusal_as_json(std::string const& reason);
 
-/// An allocation as a file holds it: names only.
+/// An allocation as it stands in a file: names only.
 struct named_allocation {
   std::optional<std::string> plan;
   struct pair {

@@ -10,7 +10,7 @@
 
 namespace rota::cli {
 
-// The two readers of the program: parsers are in headers and slow to compile, so one file compiles them.
+// One file compiles the two parsers, because they are in headers and slow to compile.
 
 /// `alica::load`.
 [[nodiscard]] alica::model load_plans(std::vector<std::filesystem::path> const& paths);

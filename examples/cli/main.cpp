@@ -6,7 +6,7 @@
 
 namespace {
 
-/// Says what is wrong in one line that people can read, whatever the message holds.
+/// Prints what is wrong in one readable line, whatever characters the message has.
 int complain(std::string const& what) {
   constexpr std::size_t limit = 2000;
   auto line = rota::cli::printable(what);

@@ -8,7 +8,7 @@
 
 namespace rota::cli {
 
-/// One cell of a CSV file, and where it begins.
+/// One cell of a CSV file, and its place.
 struct csv_cell {
   std::string text;
   std::size_t line = 1;
@@ -20,7 +20,7 @@ struct csv_cell {
 
 /// The records of a CSV text (RFC 4180: quotes, doubled quotes, LF or CRLF). Empty lines at the end are dropped.
 ///
-/// Throws `input_error` for an open quote, text behind a closing quote, or bytes that are no UTF-8.
+/// Throws `input_error` for an open quote, text behind a closing quote, or bytes that are not UTF-8.
 [[nodiscard]] std::vector<std::vector<csv_cell>> parse_csv(std::string_view text, std::string const& file);
 
 /// Utilities of agents on named columns, from a CSV file with the header `agent,COLUMN,…`.
@@ -30,7 +30,7 @@ struct utility_table {
   std::vector<std::vector<std::optional<double>>> cells;  ///< row per agent; empty: forbidden
 };
 
-/// Throws `input_error` with file, line and column for anything that is no such table.
+/// Throws `input_error` with file, line and column if the file is not such a table.
 [[nodiscard]] utility_table read_utilities(std::string const& file);
 
 /// The bytes of a text file without its byte order mark. Throws `input_error`.

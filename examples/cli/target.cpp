@@ -23,7 +23,7 @@ using alica::detail::in_quotes;
   throw input_error(d.file, d.place, d.reason + (d.id ? " (id " + std::to_string(*d.id) + ')' : "") + more);
 }
 
-/// Says why there is nothing to allocate for: the first error of the files, if they have one, else what is missing.
+/// Ends because there is no plan to allocate: with the first error of the files, if they have one, else with what is missing.
 [[noreturn]] void give_up(alica::model const& m, std::string const& files, std::string const& missing) {
   for (alica::diagnostic const& d : m.diagnostics)
     if (d.severity == alica::severity::error) complain_of(m, d);
@@ -61,7 +61,7 @@ std::optional<vocabulary::task> target::find_task(alica::plan const& p, std::str
 
 std::unique_ptr<target const> find_target(std::vector<std::string> const& files, std::string const& plan_type) {
   std::vector<std::filesystem::path> paths;
-  std::set<std::string> named;  // one by one, not by a folder that holds them
+  std::set<std::string> named;  // themselves, not by their folder
   bool names_a_type = false;
   for (auto const& f : files) {
     std::error_code error;
@@ -108,7 +108,7 @@ std::unique_ptr<target const> find_target(std::vector<std::string> const& files,
         throw input_error(joined(files), "",
                           std::to_string(plans.size()) + " plans (" + joined(plans) +
                               "): give one, or --plan-type with the plan type that offers them");
-      require_sound(m, refused_plans);  // the folder holds another plan, which may be the one that was meant
+      require_sound(m, refused_plans);  // the folder has a plan with errors, which may be the one that was meant
       return t;
     }
   } else {

@@ -16,7 +16,7 @@ namespace rota::cli {
 
 using vocabulary = runtime_vocabulary;
 
-/// The plans that the command line asks about: one, or the activated ones of a plan type.
+/// The plans that the command line asks about: one plan, or the activated plans of a plan type.
 struct target {
   alica::model model;
   std::vector<alica::plan const*> plans;   ///< into `model`
@@ -27,22 +27,22 @@ struct target {
   target& operator=(target const&) = delete;
 
   [[nodiscard]] alica::plan const& plan(vocabulary::plan p) const;
-  /// The plan's name; where that is empty or another plan of the type has it, with its id.
+  /// The plan's name; with its id if the name is empty, or another plan of the type has it too.
   [[nodiscard]] std::string name(alica::plan const& p) const;
   /// The task's name within the plan.
   [[nodiscard]] std::string name(alica::plan const& p, vocabulary::task t) const;
   [[nodiscard]] std::optional<vocabulary::task> find_task(alica::plan const& p, std::string const& label) const;
 };
 
-/// Loads the files and finds the plan type of this name or id; without one (empty), the only plan type if a file names
-/// it or there is no plan, else the only plan. Files given by name must be sound. Throws `input_error`.
+/// Loads the files and finds the plan type of this name or id. Without a name it takes the only plan type, if a file of it was
+/// given or there is no plan; else the only plan. Files given by name must have no errors. Throws `input_error`.
 [[nodiscard]] std::unique_ptr<target const> find_target(std::vector<std::string> const& files,
                                                         std::string const& plan_type);
 
-/// Agents by name; ids ascend with names, so that nothing depends on the order of rows.
+/// Agents by name. Their ids ascend with their names, so that nothing depends on the order of rows.
 class roster {
 public:
-  /// Those of the table, and others that only an old allocation knows.
+  /// The agents of the table, and those that only an old allocation names.
   roster(std::vector<std::string> const& present, std::vector<std::string> const& departed);
 
   [[nodiscard]] std::vector<vocabulary::agent> const& present() const { return present_; }

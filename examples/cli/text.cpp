@@ -29,7 +29,7 @@ std::string printable(std::string_view s) {
     auto const sound = alica::detail::first_bad_byte(s).value_or(s.size());
     for (std::size_t i = 0; i < sound; ++i) {
       unsigned const b = byte(i);
-      // Within sound UTF-8 the characters meant have two or three bytes, which these bounds keep inside the text.
+      // In valid UTF-8 these characters have two or three bytes, so i + 1 and i + 2 are inside the text.
       unsigned const two = b == 0xC2 || b == 0xD8 ? (b & 31U) << 6U | (byte(i + 1) & 63U) : 0;
       unsigned const three = b == 0xE2 ? 0x2000U | (byte(i + 1) & 63U) << 6U | (byte(i + 2) & 63U) : 0;
       if (b < 0x20 || b == 0x7F) {

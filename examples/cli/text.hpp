@@ -9,11 +9,11 @@
 
 namespace rota::cli {
 
-/// The text with all that could draw on the terminal or break or reorder a line made visible: control characters of
-/// ASCII (\x1b) and Unicode (\u009b), directions of writing (\u202e), line separators, bytes that are no UTF-8 (\xff).
+/// The text with everything escaped that could control the terminal, or break or reorder a line: control characters of ASCII
+/// (\x1b) and Unicode (\u009b), directions of writing (\u202e), line separators, bytes that are not UTF-8 (\xff).
 [[nodiscard]] std::string printable(std::string_view s);
 
-/// The names in one line; of very many only the first.
+/// The names in one line; if they are many, only the first.
 [[nodiscard]] std::string joined(std::vector<std::string> const& names);
 
 /// The shortest decimal that reads back as the same number.
@@ -28,7 +28,7 @@ namespace rota::cli {
 /// "MIN..MAX"; no upper bound reads "*".
 [[nodiscard]] std::string interval(cardinality c);
 
-/// Spaces behind the text, to a column. Counts code points.
+/// The text, filled with spaces to a width in code points.
 [[nodiscard]] std::string padded(std::string s, std::size_t width);
 
 /// "1 agent", "2 agents".

@@ -4,4 +4,5 @@
 /// includes this. In a program that does not, it adds nothing to the headers it includes.
 
 #include <rota/dense/flow/detail/search.hpp>
+#include <rota/dense/pairs/detail/search.hpp>
 #include <rota/dense/tree/detail/search.hpp>

@@ -6,6 +6,7 @@
 #include <rota/algebra/dense_event.hpp>
 #include <rota/algebra/fingerprint.hpp>
 #include <rota/algebra/transition.hpp>
+#include <rota/core/size.hpp>
 #include <rota/core/time.hpp>
 #include <rota/model/allocation.hpp>
 
@@ -47,7 +48,7 @@ public:
     }
     return *this;
   }
-  [[nodiscard]] constexpr std::size_t value() const noexcept { return static_cast<std::size_t>(mix(state_)); }
+  [[nodiscard]] constexpr std::size_t value() const noexcept { return to_size(mix(state_)); }
 
 private:
   std::uint64_t state_ = 0;

@@ -6,6 +6,8 @@
 #include <rota/algebra/print.hpp>
 #include <rota/allocation/print.hpp>
 #include <rota/core/print.hpp>
+#include <rota/dense/print.hpp>
+#include <rota/model/print.hpp>
 #include <rota/search/print.hpp>
 #include <rota/team/print.hpp>
 
@@ -22,6 +24,8 @@ namespace detail {
 template <class T>
 concept has_text = requires(T const& x) {
   { rota::to_string(x) } -> std::same_as<std::string>;
+} || requires(T const& x) {
+  { rota::dense::to_string(x) } -> std::same_as<std::string>;
 };
 template <class T>
 concept has_sentence = requires(T const& x) {
@@ -50,6 +54,10 @@ template <printable T>
 template <printable T>
 std::ostream& operator<<(std::ostream& out, T const& x) {
   return out << detail::printed(x);
+}
+
+namespace dense {
+using rota::operator<<;
 }
 
 }  // namespace rota

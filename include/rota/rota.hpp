@@ -2,6 +2,8 @@
 /// @file
 /// The umbrella: everything from core/ to team/. No Eigen, no rapidcheck, no JSON, no networking, no Boost.
 
+#include <rota/core/config.hpp>  // first, so that it is the first to complain
+
 #include <rota/algebra/allocation_event.hpp>
 #include <rota/algebra/apply.hpp>
 #include <rota/algebra/associativity.hpp>

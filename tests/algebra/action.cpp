@@ -1,4 +1,5 @@
-// What is no law: where composites apply, and which sequences are runs. The laws by name are in tests/testing/apply.cpp.
+// What the laws do not say: where composites apply, and which sequences are runs. The laws are in
+// tests/testing/apply.cpp.
 
 #include "algebra/universe.hpp"
 

@@ -42,7 +42,8 @@ std::uint64_t cost(F f) {
   return counted::comparisons - before;
 }
 
-/// ALICA composes in quadratic time; here one merge does it: at most five comparisons an entry, whatever the size.
+/// One merge composes two events, with at most five comparisons per entry at any size. (ALICA's composition is
+/// quadratic.)
 TEST(complexity, compose_difference_sum_and_apply_are_linear) {
   for (int n : {100, 1000, 10000}) {
     auto const e = *event::make(every(6, n), atoms{});
@@ -57,7 +58,7 @@ TEST(complexity, compose_difference_sum_and_apply_are_linear) {
   }
 }
 
-/// One change to a large event: a search, and no more comparisons however large it is.
+/// One change to a large event takes a binary search, so hardly more comparisons as the event grows.
 TEST(complexity, composing_with_a_small_event_searches) {
   auto const one = event::addition(counted{12345});
   std::uint64_t last = 0;
@@ -70,7 +71,7 @@ TEST(complexity, composing_with_a_small_event_searches) {
   EXPECT_GT(last, 0u);
 }
 
-/// A control: the naive composition over sets by look-up would not pass the same bound at any size worth measuring.
+/// A control: the naive composition, which looks up each atom in sets, exceeds the same bound.
 TEST(complexity, the_bound_rejects_a_quadratic_composition) {
   int const n = 100;
   auto const a = every(6, n), b = every(4, n);

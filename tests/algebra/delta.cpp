@@ -1,4 +1,4 @@
-// Deltas at each atom: sums, multiples, embedding and clamp, extension, overflow. The laws by name are in
+// Deltas at each atom: sums, multiples, embedding and clamp, extension, overflow. The laws are in
 // tests/testing/deltas.cpp.
 
 #include "algebra/generators.hpp"
@@ -37,7 +37,7 @@ model pointwise(std::vector<int> const& counts) {
   return m;
 }
 
-/// An integer type that is no std::integral, as big integers are: wide enough here to be exact.
+/// An integer type that is not std::integral, like big integers; wide enough here to be exact.
 __extension__ using int128 = __int128;
 struct wide {
   int128 value = 0;
@@ -63,7 +63,7 @@ struct residues {
   }
 };
 
-/// An arbitrary map Atoms -> G, as a table.
+/// Any map Atoms -> G, as a table.
 struct table {
   std::vector<int> fives;
   std::vector<int> twelves;
@@ -188,7 +188,7 @@ RC_GTEST_PROP(delta, extending_the_inclusion_of_generators_is_the_identity, ()) 
 }
 
 RC_GTEST_PROP(delta, extend_pushes_forward_along_maps_of_atoms, ()) {
-  // Forgetting the task sends rivals of one agent to one atom, where they may cancel.
+  // Dropping the task maps two tasks of one agent to one atom, where they may cancel.
   auto const n = *atom_count().as("atoms");
   auto const d = *delta_over(n).as("d");
   using by_agent = rota::delta<names::agent>;
@@ -206,8 +206,8 @@ namespace {
 constexpr bool fits_8_bits(int n) { return n >= -128 && n <= 127; }
 small_delta small_at(int n) { return {nth(1), static_cast<std::int8_t>(n)}; }
 
-/// Whether a checked operation gives n at the second atom, and at the first, which is always fine, its due; or refuses the
-/// second where eight bits cannot hold n.
+/// Whether a checked operation gives the right count at the first atom, where it always fits, and n at the second; or
+/// refuses the second if eight bits cannot hold n.
 template <class Checked>
 bool is_exact_or_refused(Checked const& r, int n, int at_the_first) {
   if (!fits_8_bits(n)) return !r.has_value() && r.error().witness == nth(1);
@@ -295,7 +295,7 @@ RC_GTEST_PROP(delta, checked_operations_are_exact_or_name_the_least_overflow, ()
   auto const k = *integer(-4, 4).as("k");
   auto const d = delta_of<std::int8_t>(a);
   auto const e = delta_of<std::int8_t>(b);
-  // The least number, often, which alone has no opposite.
+  // Often the least number, the only one that cannot be negated.
   auto c = b;
   if (auto const i = static_cast<std::size_t>(*integer(0, 2 * static_cast<int>(n)).as("least at")); i < n) c[i] = -128;
   auto const f = delta_of<std::int8_t>(c);

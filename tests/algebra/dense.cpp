@@ -1,4 +1,4 @@
-// Dense sets and events against sparse ones, over universes around the borders of a word; refusals. The laws by name are in
+// Dense sets and events against sparse ones, over universes of about one, two and more words; refusals. The laws are in
 // tests/testing/events.cpp.
 
 #include "algebra/generators.hpp"
@@ -67,14 +67,15 @@ static_assert(!std::constructible_from<delta, rota::dense_event<rota::index_univ
 static_assert(rota::invertible_magma<word_event> && rota::commutative_magma<word_event> && !rota::monoid<word_event>);
 static_assert(!rota::magma<rota::dense_event<listed>>, "events over two universes do not compose");
 
-// One word a plane is a plain value.
+// Planes of one word are stored in the object.
 static_assert(std::is_trivially_copyable_v<word_event> && std::is_trivially_destructible_v<word_event>);
 static_assert(sizeof(word_event) == 2 * sizeof(std::uint64_t));
 static_assert(sizeof(rota::dense_atom_set<first_atoms<64>>) == sizeof(std::uint64_t));
 static_assert(sizeof(rota::dense_event<first_atoms<65>>) == 4 * sizeof(std::uint64_t));
 static_assert(!std::convertible_to<rota::dense_atom_set<first_atoms<64>>, word_event>);
 
-/// Says of two events and two sets, dense, all that there is to say of sparse ones; the names of what differs.
+/// Compares every operation on two dense events and two dense sets with the sparse ones. Returns the names of those
+/// that differ.
 template <class U>
 std::string differences(U const& u, event const& e, event const& f, atom_set const& c, atom_set const& d) {
   std::string names;
@@ -236,7 +237,7 @@ static_assert(pitch::index_of(in{soccer::agent{2}, normal, attack}).error().witn
 static_assert(!pitch::index_of(in{left, soccer::plan{2}, attack}) &&
               !pitch::index_of(in{left, normal, soccer::task{7}}));
 
-// Left and right swap tasks, by the compiler; and nothing happens in the universe without atoms.
+// Two agents swap tasks, at compile time; and nothing happens in the empty universe.
 constexpr bool tasks_are_swapped_at_compile_time() {
   using crew = rota::dense_atom_set<pitch>;
   auto const before = to_dense(rota::atom_set<in>{{left, normal, attack}, {right, normal, defend}}, pitch{}).value();

@@ -1,5 +1,5 @@
-// Atom sets against std::set, and events: Def. 3 and 4 to the letter, and what they are not. The laws by name are in
-// tests/testing/events.cpp.
+// Atom sets against std::set, and events: Def. 3 and 4 to the letter, and the laws that they do not obey. The laws that
+// they obey are in tests/testing/events.cpp.
 
 #include "algebra/generators.hpp"
 #include "support/allocation_counter.hpp"
@@ -368,7 +368,7 @@ TEST(event, many_atoms_may_own_memory) {
     if (i % 2 == 0) add(e, on_numbers_e);
     if (i % 3 == 0) add(f, on_numbers_f);
   }
-  f = rota::inverse(f);  // so that they cancel where they meet
+  f = rota::inverse(f);  // so that common atoms cancel
   auto const r = compose(e, f);
   auto const expected = compose(on_numbers_e, rota::inverse(on_numbers_f));
   ASSERT_EQ(r.size(), expected.size());

@@ -1,4 +1,4 @@
-// How often fingerprints meet: as often as if the codes of atoms were random. The laws by name are in tests/testing/maps.cpp.
+// Fingerprints collide as often as if the codes of atoms were random. The laws are in tests/testing/maps.cpp.
 
 #include <rota/algebra/fingerprint.hpp>
 
@@ -15,10 +15,11 @@ namespace fingerprint_test {
 using atom = std::uint32_t;
 
 TEST(fingerprint, multiples_of_a_power_of_two_vanish_as_often_as_stated) {
-  // 2^v·x is no zero, and 2^(v−64) of these fingerprints are.
+  // 2^v·x is not zero, but a share of 2^(v−64) of these fingerprints is.
   constexpr atom atoms = 1 << 16;
   for (int const v : {54, 58, 60, 62, 63}) {
-    auto const n = static_cast<std::int64_t>(std::uint64_t{1} << v);  // −2⁶³, were it too large: the same modulo 2⁶⁴
+    // −2⁶³ if it is too large, which is the same modulo 2⁶⁴.
+    auto const n = static_cast<std::int64_t>(std::uint64_t{1} << v);
     int vanish = 0;
     for (atom x = 0; x < atoms; ++x) vanish += fingerprint_of(rota::delta<atom>(x, n)) == rota::fingerprint{};
     double const expected = atoms / static_cast<double>(std::uint64_t{1} << (64 - v));

@@ -5,7 +5,7 @@
 namespace universe {
 namespace {
 
-/// Zeros with weight z against nonzero values with weight two, z drawn once per vector.
+/// Zeros with weight z and nonzero values with weight two; z is drawn once per vector.
 rc::Gen<std::vector<int>> values_with_zeros(std::size_t atoms, int low, int high, std::vector<std::size_t> weights) {
   std::vector<int> nonzero;
   for (int x = low; x <= high; ++x)
@@ -20,9 +20,6 @@ rc::Gen<std::vector<int>> values_with_zeros(std::size_t atoms, int low, int high
 
 rc::Gen<std::size_t> atom_count() { return rc::gen::element<std::size_t>(1, 2, 3, 6, 6, 24); }
 
-rc::Gen<int> integer(int low, int high) {
-  return rc::gen::resize(100, rc::gen::inRange(low, high + 1));  // inRange starts with a part of the range otherwise
-}
 rc::Gen<std::vector<int>> integers(std::size_t count, int low, int high) {
   return rc::gen::container<std::vector<int>>(count, integer(low, high));
 }

@@ -33,12 +33,12 @@ static_assert(rota::abelian_group<delta> && rota::abelian_group<rota::fingerprin
 static_assert(rota::groupoid<transition> && !rota::magma<transition> && !rota::groupoid<delta>);
 static_assert(rota::group_action<delta, rota::fingerprint>);
 static_assert(!rota::group_action<event, atom_set> && !rota::group_action<event, rota::fingerprint>);
-// Nothing has a structure that nobody gave it.
+// No type has a structure before `structure` is specialised for it.
 static_assert(!rota::magma<int> && !rota::magma<std::string> && !rota::magma<atom_set>);
 
 }  // namespace
 
-// Each concept beside its neighbours: who has less is refused.
+// Each concept refuses types that have only what its weaker neighbour asks.
 struct text {
   std::string value;
   friend bool operator==(text const&, text const&) = default;
@@ -67,7 +67,7 @@ struct rota::structure<structures_test::text> {
   static T identity() { return {}; }
   static constexpr bool associative = true;
 };
-/// Without a least number, no identity.
+/// There is no least integer, so there is no identity.
 template <>
 struct rota::structure<structures_test::greatest> {
   using T = structures_test::greatest;
@@ -75,7 +75,7 @@ struct rota::structure<structures_test::greatest> {
   static constexpr bool associative = true;
   static constexpr bool commutative = true;
 };
-/// Commutes, and brackets matter.
+/// Commutes, but does not associate.
 template <>
 struct rota::structure<structures_test::mean> {
   using T = structures_test::mean;
@@ -103,11 +103,11 @@ static_assert(rota::magma<mean> && !rota::unital_magma<mean> && !rota::monoid<me
 static_assert(rota::group<turn> && !rota::abelian_group<turn> && !rota::groupoid<turn>);
 static_assert(!rota::group_action<turn, int> && !rota::group_action<text, text>);
 
-// What stands for integers, and what does not.
+// Which types represent integers, and which do not.
 static_assert(rota::integer_coefficient<std::int8_t> && !rota::integer_coefficient<unsigned>);
 static_assert(!rota::integer_coefficient<double> && !rota::integer_coefficient<rota::sign>);
 static_assert(!rota::integer_coefficient<std::string> && !rota::integer_coefficient<int*>);
-// Names without an encoding have no fingerprint; that is no error in a header.
+// Names without an encoding have no fingerprint, but the headers still compile.
 struct call_sign {
   char letters[2] = {};
   friend auto operator<=>(call_sign const&, call_sign const&) = default;
@@ -117,11 +117,11 @@ struct call_signs : rota::runtime_vocabulary {
 };
 static_assert(!rota::encodable_atom<rota::in<call_signs>> && rota::encodable_atom<atom>);
 static_assert(!rota::group_action<rota::delta<rota::in<call_signs>>, rota::fingerprint>);
-// One word holds no more than 64 bits: cut to it, two numbers would have one code.
+// A word holds 64 bits. If wider numbers were cut to it, two of them would have one code.
 __extension__ using int128 = __int128;
 static_assert(rota::encodable<std::uint64_t> && !rota::encodable<int128>);
 
-// The shortest refutation and the criterion, by the compiler.
+// The shortest refutation, and the criterion, at compile time.
 constexpr auto s = event::addition(nth(0));
 constexpr auto u = rota::inverse(s);
 static_assert(rota::compose(rota::compose(s, s), u) == event{} && rota::compose(s, rota::compose(s, u)) == s);
@@ -130,7 +130,7 @@ static_assert(rota::associates(s, u, s));
 // The same three in the group.
 static_assert((delta(s) + delta(s)) + delta(u) == delta(s) + (delta(s) + delta(u)));
 static_assert(rota::clamp(delta(s) + delta(u)) == event{} && 2 * delta(s) != delta(rota::compose(s, s)));
-// A long event and a short one, whose atoms lie before, within and beyond.
+// A long event and a short one, whose atom is before, within or behind the long one.
 constexpr rota::event<int> long_event() {
   rota::small_vector<rota::signed_atom<int>, 8> entries;
   for (int i = 0; i < 40; ++i) entries.push_back({2 * i, rota::sign::plus});
@@ -141,7 +141,7 @@ static_assert(rota::compose(long_event(), rota::event<int>::subtraction(40)).siz
 static_assert(rota::compose(long_event(), rota::event<int>::subtraction(78)).size() == 39);
 static_assert(rota::compose(long_event(), rota::event<int>::make({101}, {100}).value()).size() == 42);
 static_assert(rota::compose(rota::event<int>::addition(101), long_event()).size() == 41);
-// A robot changes its mind twice, and comes back.
+// A robot changes its mind twice, and is back at its first decision.
 constexpr bool a_run_composes() {
   std::array<event, 3> const run{s, u, s};
   std::array<event, 2> const none{s, s};
@@ -151,7 +151,7 @@ constexpr bool a_run_composes() {
 static_assert(a_run_composes());
 
 #ifndef NDEBUG
-// A broken precondition is no constant expression: the compiler sees it where it sees the values.
+// A call that breaks a precondition is not a constant expression, so the compiler reports it.
 template <auto F>
 concept is_constant = requires { typename std::bool_constant<(F(), true)>; };
 constexpr transition to_s() { return {atom_set{}, atom_set{nth(0)}}; }

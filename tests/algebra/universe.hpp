@@ -1,5 +1,5 @@
 #pragma once
-/// The atoms, sets, events and deltas the algebra is tested on, and ways to enumerate all of a small universe.
+/// The atoms, sets, events and deltas of these tests, and functions that enumerate all of them over a small universe.
 
 #include <rota/algebra/apply.hpp>
 #include <rota/algebra/delta.hpp>
@@ -25,14 +25,15 @@ using atom_set = rota::atom_set<atom>;
 using event = rota::event<atom>;
 using delta = rota::delta<atom>;
 
-/// The i-th atom in ascending order; neighbours share an agent, so that small universes hold one agent's rival tasks.
+/// The i-th atom in ascending order. Four in a row share an agent, so that in small universes an agent has several
+/// tasks.
 constexpr atom nth(std::size_t i) {
   return {static_cast<names::agent>(i / 4), static_cast<names::plan>(i / 2 % 2), static_cast<names::task>(i % 2)};
 }
 
 constexpr rota::sign to_sign(int s) { return s > 0 ? rota::sign::plus : s < 0 ? rota::sign::minus : rota::sign::zero; }
 
-/// Built through the two sets of Def. 3, as a user would: independent of `compose` and `difference`.
+/// Built from the two sets of Def. 3, so without `compose` and `difference`.
 inline event event_of(std::vector<int> const& signs) {
   atom_set additions;
   atom_set subtractions;

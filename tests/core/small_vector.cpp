@@ -55,7 +55,7 @@ struct step {
   }
 };
 
-// Long enough to live on the heap themselves: a slot destroyed twice or never is then seen by the sanitizers.
+// Long enough to be on the heap themselves, so that the sanitizers notice a place destroyed twice or never.
 std::string text(std::size_t i) {
   return "an element too long for the small string buffer, number " + std::to_string(i);
 }
@@ -143,7 +143,7 @@ void perform(V& v, V& other, step const& s) {
   }
 }
 
-/// The checker: V behaves as std::vector does, observed after every step.
+/// The checker: compares V with std::vector after every step.
 template <class V>
 bool agrees_with_std_vector(std::vector<step> const& steps) {
   V v;
@@ -161,7 +161,7 @@ bool agrees_with_std_vector(std::vector<step> const& steps) {
 }
 
 auto steps() {
-  // At full size from the first case on: inRange otherwise starts with the first few operations only.
+  // Resized, because inRange otherwise starts with the first few operations only.
   auto const below = [](std::size_t n) { return rc::gen::resize(100, rc::gen::inRange<std::size_t>(0, n)); };
   auto const one = rc::gen::map(rc::gen::tuple(below(static_cast<std::size_t>(op::count)), below(64), below(64)),
                                 [](std::tuple<std::size_t, std::size_t, std::size_t> const& t) {
@@ -173,7 +173,7 @@ auto steps() {
 template <std::size_t N>
 using strings = rota::small_vector<std::string, N>;
 
-/// Wrong model: on leaving the object's own storage it takes one element too few along.
+/// Wrong model: when it moves to the heap, it leaves one element behind.
 struct loses_one_at_the_boundary : strings<4> {
   using strings<4>::strings;
   void push_back(std::string item) {

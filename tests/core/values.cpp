@@ -71,7 +71,7 @@ TEST(result, gives_access_to_the_value_it_holds) {
   EXPECT_EQ(r.error(), 4);
 }
 
-/// Counts how many are alive, and that none is destroyed as what it is not.
+/// Counts the living objects, and checks that each is destroyed where it was made.
 struct counted {
   static inline int alive = 0;
   int id;
@@ -226,14 +226,15 @@ TEST(time, the_chrono_bridge_loses_nothing_down_to_nanoseconds) {
 
 }  // namespace
 
-namespace core_values {  // named, because clang reports operators that only unevaluated operands use in an unnamed one
+// Named, because in an unnamed one clang reports operators that are used only in unevaluated operands.
+namespace core_values {
 
 enum class colour { red, green };
 struct unordered {
   int value;
   friend bool operator==(unordered const&, unordered const&) = default;
 };
-/// A name from a library older than C++20: it knows < and ==, and no <=>.
+/// An identifier from before C++20: it has all six comparisons, and no <=>.
 struct legacy {
   int value;
   friend constexpr bool operator==(legacy a, legacy b) { return a.value == b.value; }

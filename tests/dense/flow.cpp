@@ -14,6 +14,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace additive_test {
@@ -191,6 +192,21 @@ TEST(flow_solver, warm_is_cold) {
     }));
     EXPECT_GE(s.warm * 100, s.cases * 20) << f.agents;
   }
+}
+
+TEST(flow_solver, begins_anew_if_there_are_other_agents_or_slots) {
+  std::vector<std::int64_t> const two_by_two{5, 1, 1, 5}, three_by_two{5, 1, 1, 5, 4, 4},
+      two_by_three{5, 1, 9, 1, 5, 9};
+  std::vector<slot_bounds> const two(2, {0, 2}), three(3, {0, 1}), spacious(2, {0, 9});
+  flow_solver solver;
+  std::vector<row_index> const all{0, 1, 2};
+  EXPECT_FALSE(solver.resolve({2, two_by_two, two}, {}).warm) << "there was no search";
+  EXPECT_TRUE(solver.resolve({2, two_by_two, two}, {}).warm);
+  EXPECT_FALSE(solver.resolve({3, three_by_two, two}, all).warm);
+  EXPECT_FALSE(solver.resolve({2, two_by_three, three}, std::span{all}.first(2)).warm);
+  EXPECT_FALSE(solver.resolve({2, two_by_two, two}, std::span{all}.first(2)).warm);
+  EXPECT_FALSE(solver.resolve({2, two_by_two, spacious}, {}).warm) << "slots with room for so many keep other books";
+  EXPECT_EQ(solver.resolve({2, two_by_two, spacious}, {}).value, 10);
 }
 
 TEST(flow_solver, permuted_agents_get_the_same_slots) {

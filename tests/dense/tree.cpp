@@ -216,6 +216,26 @@ TEST(tree_solver, improves_on_what_is_known_or_keeps_its_first) {
   EXPECT_GE(kept, 100);
 }
 
+TEST(tree_solver, ends_at_the_first_assignment_that_is_worth_enough) {
+  int sooner = 0;
+  EXPECT_TRUE(rc::check([&] {
+    dice d(*any_seed().as("seed"));
+    setting s(d, 5, 3);
+    s.asked.bounded = false;
+    s.explore();
+    if (s.best == nothing) return;
+    tree_solver solver;
+    auto const all = solver.solve(s.in, s.asked);
+    auto const got = solver.solve(s.in, s.asked, {.enough = s.best});
+    RC_ASSERT(got.proved());
+    RC_ASSERT(got.value == s.best);
+    auto const first = s.first();
+    RC_ASSERT(std::equal(first.begin(), first.end(), got.assignment.begin(), got.assignment.end()));
+    sooner += got.account.nodes < all.account.nodes;
+  }));
+  EXPECT_GE(sooner, 200);
+}
+
 TEST(tree_solver, interchangeable_agents_are_tried_in_one_order_only) {
   int mirrored = 0;
   EXPECT_TRUE(rc::check([&] {

@@ -63,6 +63,13 @@ std::string folder_of(std::string const& header) {
   return std::filesystem::path{header}.parent_path().generic_string();
 }
 
+/// X/detail/ is seen only from below X/. rota/compiled.hpp compiles the details of the solvers for everybody else.
+bool may_see_details(std::string const& header, std::string const& included) {
+  auto const detail = included.rfind("/detail/");
+  return detail == std::string::npos || header == "rota/compiled.hpp" ||
+         header.starts_with(included.substr(0, detail + 1));
+}
+
 std::vector<std::string> upward_includes(sources const& headers) {
   std::vector<std::string> result;
   for (auto const& [header, text] : headers) {
@@ -75,6 +82,8 @@ std::vector<std::string> upward_includes(sources const& headers) {
         result.push_back(header + " includes " + included + ", which does not exist");
       else if (ours && room_of(included) != room_of(header) && height(included) >= height(header))
         result.push_back(header + " includes " + included + " from a room that is not below it");
+      else if (ours && !may_see_details(header, included))
+        result.push_back(header + " includes " + included + ", a detail of another folder");
     }
   }
   return result;
@@ -112,9 +121,11 @@ TEST(rooms, include_only_downwards) {
 
 TEST(rooms, upward_includes_would_be_found) {
   auto const complaints = [](std::string const& header, std::string const& text) {
-    sources headers{{"rota/core/in.hpp", ""},     {"rota/algebra/event.hpp", ""}, {"rota/team/robot.hpp", ""},
-                    {"rota/sim/world.hpp", ""},   {"rota/rota.hpp", ""},          {"rota/adapters/eigen.hpp", ""},
-                    {"rota/testing/laws.hpp", ""}};
+    sources headers{
+        {"rota/core/in.hpp", ""},         {"rota/algebra/event.hpp", ""}, {"rota/team/robot.hpp", ""},
+        {"rota/sim/world.hpp", ""},       {"rota/rota.hpp", ""},          {"rota/adapters/eigen.hpp", ""},
+        {"rota/testing/laws.hpp", ""},    {"rota/dense/buffer.hpp", ""},  {"rota/dense/flow/detail/graph.hpp", ""},
+        {"rota/core/detail/bits.hpp", ""}};
     headers.insert_or_assign(header, text);
     return upward_includes(headers).size();
   };
@@ -128,6 +139,15 @@ TEST(rooms, upward_includes_would_be_found) {
   EXPECT_EQ(complaints("rota/core/a.hpp", "#include \"in.hpp\"\n"), 1u);
   EXPECT_EQ(complaints("rota/core/a.hpp", "#include <rota/core/absent.hpp>\n"), 1u);
   EXPECT_EQ(complaints("rota/attic/a.hpp", ""), 1u);
+  // Numbers know no plan and no event, and events know no solver.
+  EXPECT_EQ(complaints("rota/dense/a.hpp", "#include <rota/algebra/event.hpp>\n"), 1u);
+  EXPECT_EQ(complaints("rota/algebra/a.hpp", "#include <rota/dense/buffer.hpp>\n"), 1u);
+  EXPECT_EQ(complaints("rota/dense/flow/a.hpp", "#include <rota/core/in.hpp>\n"), 0u);
+  // What is private says so by its place.
+  EXPECT_EQ(complaints("rota/team/a.hpp", "#include <rota/core/detail/bits.hpp>\n"), 1u);
+  EXPECT_EQ(complaints("rota/dense/tree/a.hpp", "#include <rota/dense/flow/detail/graph.hpp>\n"), 1u);
+  EXPECT_EQ(complaints("rota/dense/flow/a.hpp", "#include <rota/dense/flow/detail/graph.hpp>\n"), 0u);
+  EXPECT_EQ(complaints("rota/dense/flow/detail/a.hpp", "#include <rota/dense/flow/detail/graph.hpp>\n"), 0u);
   EXPECT_EQ(complaints("rota/algebra/a.hpp", "#include <rota/core/in.hpp>\n#include <vector>\n"), 0u);
   EXPECT_EQ(complaints("rota/rota.hpp", "#include <rota/team/robot.hpp>\n"), 0u);
   EXPECT_EQ(complaints("rota/sim/a.hpp", "#include <rota/rota.hpp>\n"), 0u);

@@ -47,11 +47,13 @@ TEST(printed, values_of_every_room_go_into_a_stream) {
   EXPECT_EQ(streamed(atom{crew::agent::bob, {}, {}}), "In(bob, 0, 0)");
   EXPECT_EQ(streamed(rota::event<atom>::addition({crew::agent::ann, {}, {}})), "({In(ann, 0, 0)}, {})");
   EXPECT_EQ(streamed(rota::atom_set<int>{2, 1}), "{1, 2}");
+  EXPECT_EQ(streamed(rota::allocation<crew>{{}, {{crew::agent::bob, {}, {}}}}), "0: {In(bob, 0, 0)}");
   EXPECT_EQ(streamed(rota::sign::minus), "-");
   EXPECT_EQ(streamed(rota::milliseconds(30)), "30 ms");
   EXPECT_EQ(streamed(rota::never), "never");
   EXPECT_EQ(streamed(rota::strong_id<crew>{5}), "5");
   EXPECT_EQ(streamed(rota::cardinality{1, 3}), "1..3");
+  EXPECT_EQ(streamed(rota::dense::status{}), to_string(rota::dense::status{}));
   EXPECT_EQ(streamed(rota::utility_fault::not_a_number), to_string(rota::utility_fault::not_a_number));
   rota::violation<crew> v;
   v.what = rota::clause::idle_forbidden;

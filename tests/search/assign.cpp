@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <rota/search/assign.hpp>
+#include <rota/search/print.hpp>
 
 #include <rapidcheck/gtest.h>
 
@@ -11,6 +11,8 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace assign_test {
@@ -193,6 +195,19 @@ TEST(assign, a_false_proof_does_not_reach_the_total) {
     EXPECT_GT(rota::proven_bound(utilities, best), best.total);
     p = right;
   }
+}
+
+TEST(assign, every_fault_has_words) {
+  std::set<std::string> words, sentences, reasons;
+  for (int i = 0; i <= static_cast<int>(assign_fault::agent_stuck); ++i) {
+    rota::assign_refusal const r{static_cast<assign_fault>(i), 1, 2};
+    EXPECT_TRUE(words.insert(to_string(r.why)).second);
+    EXPECT_TRUE(sentences.insert(describe(r)).second);
+    EXPECT_TRUE(reasons.insert(reason_of(r)).second);
+  }
+  EXPECT_FALSE(words.contains("?") || sentences.contains("?") || reasons.contains("?"));
+  EXPECT_EQ(describe(rota::assign_refusal{assign_fault::infinite, 1, 2}),
+            "the entry of agent 1 and task 2 is infinite");
 }
 
 TEST(assign, what_is_no_question_is_refused_with_its_place) {

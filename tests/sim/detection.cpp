@@ -60,12 +60,12 @@ std::optional<int> messages_until_detection(bool third_changes) {
   says(3, 2);
   (void)me.deliberate(book.type, members, seen, now, space);
   for (int i = 1; i <= 1000; ++i) {
-    now = now + milliseconds(70);
+    now += milliseconds(70);
     bool const supports = third_changes && i % 2 == 1;
     seen.robots[2] = supports ? at_support : at_defence;
     says(2, 1);
     says(3, supports ? 3 : 2);
-    now = now + milliseconds(30);
+    now += milliseconds(30);
     auto const d = me.deliberate(book.type, members, seen, now, space);
     EXPECT_EQ(me.believes({1})->part({2}), (in<names>{{2}, {1}, {2}}));
     if (d.detected) return i;

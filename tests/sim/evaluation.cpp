@@ -85,7 +85,7 @@ reading read(std::vector<line> const& log, instant begin, instant end) {
     instant const from = std::max(stretches[i].from, begin);
     instant const to = until(i);
     if (!stretches[i].conflict || to <= from) continue;
-    total = total + (to - from);
+    total += to - from;
     if (!conflicts.empty() && conflicts.back().second == from) {
       conflicts.back().second = to;
     } else {

@@ -94,7 +94,7 @@ TEST(authority, a_leader_repeats_as_long_as_it_rules_and_says_what_is_left) {
   authority a;
   lead(a, 8, attacker(8));
   int repeats = 0;
-  for (auto now = start; now < start + rota::seconds(3); now = now + milliseconds(10)) {
+  for (auto now = start; now < start + rota::seconds(3); now += milliseconds(10)) {
     a.expire(now);
     if (auto c = a.next_claim(now, period)) {
       ++repeats;
@@ -175,7 +175,7 @@ TEST(authority, invariants_over_every_interleaving) {
       int const n = *rc::gen::inRange(1, team + 1).as("member");
       auto& m = members[static_cast<std::size_t>(n)];
       switch (*rc::gen::weightedElement<int>({{3, 0}, {2, 1}, {3, 2}, {9, 3}, {1, 4}, {1, 5}}).as("action")) {
-      case 0: now = now + milliseconds(*rc::gen::inRange(1, 700)); break;
+      case 0: now += milliseconds(*rc::gen::inRange(1, 700)); break;
       case 1:
         if (!m.rule.active()) begin(n);
         break;
@@ -220,7 +220,7 @@ TEST(authority, invariants_over_every_interleaving) {
       }
     }
     // Nobody speaks any more: every reign is over after the bound.
-    now = now + reign + greatest_delay;
+    now += reign + greatest_delay;
     for (auto& each : members) {
       each.rule.expire(now);
       RC_ASSERT(!each.rule.active());

@@ -91,6 +91,18 @@ TEST_F(deliberation, who_is_given_another_task_is_taken_to_begin_it) {
   EXPECT_EQ(a.believes(play_id)->state(agent(2)), soccer::state::get_ball) << "a state of a task that is ignored";
 }
 
+#ifndef NDEBUG
+TEST_F(deliberation, another_plan_type_under_the_same_id_is_asserted) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  using plan = rota::plan<soccer, view>;
+  auto const worth = rota::additive_utility<soccer, view>([](auto, auto, view const&) { return std::optional(1.0); });
+  auto const other = *rota::plan_type<soccer, view>::make(
+      play_id, {*plan::make({.plan = soccer::plan::kickoff, .tasks = {{attack, {1, 1}, {}}}, .utility = worth})});
+  auto a = in_play(1);
+  EXPECT_DEATH((void)a.deliberate(other, members, sees(1), start, space), "knows");
+}
+#endif
+
 TEST_F(deliberation, a_regular_value_that_replays_alike) {
   pitch p(*this, {sees(1), sees(2), sees(3)});
   p.run(milliseconds(333));

@@ -41,7 +41,7 @@ TEST_F(interleavings, authority_over_every_interleaving_of_real_agents) {
 
     // Everybody thinks and speaks, everybody hears.
     auto const lossless_round = [&] {
-      now = now + milliseconds(30);
+      now += milliseconds(30);
       for (std::size_t i = 0; i < robots.size(); ++i) {
         (void)think(robots[i], sees(static_cast<int>(i) + 1), now);
         while (auto m = robots[i].next_message(now)) {
@@ -67,7 +67,7 @@ TEST_F(interleavings, authority_over_every_interleaving_of_real_agents) {
       };
       auto const before = held();
       switch (*rc::gen::weightedElement<int>({{3, 0}, {8, 1}, {4, 2}, {12, 3}, {1, 4}, {1, 5}})) {
-      case 0: now = now + milliseconds(*rc::gen::inRange(1, 300)); break;
+      case 0: now += milliseconds(*rc::gen::inRange(1, 300)); break;
       case 1: (void)think(r, sees(static_cast<int>(i) + 1), now); break;
       case 2:
         while (auto m = r.next_message(now)) flying.push_back({*m, now});
@@ -131,7 +131,7 @@ TEST_F(interleavings, authority_over_every_interleaving_of_real_agents) {
     }
 
     // Nobody speaks any more: afterwards everybody is back to normal.
-    now = now + rota::seconds(2) + greatest_delay;
+    now += rota::seconds(2) + greatest_delay;
     for (std::size_t i = 0; i < robots.size(); ++i) {
       auto const d = think(robots[i], sees(1), now);
       RC_ASSERT(d.reason != decision_reason::obeyed);

@@ -110,7 +110,7 @@ TEST_F(messages, plan_messages_keep_a_drift_free_grid_under_a_30_ms_loop) {
   auto a = in_play(1, options);
   int sent = 0;
   std::uint64_t last = 0;
-  for (auto now = start; now < start + rota::seconds(60); now = now + milliseconds(30)) {
+  for (auto now = start; now < start + rota::seconds(60); now += milliseconds(30)) {
     while (auto m = a.next_message(now)) {
       auto const& plan = std::get<plan_message>(*m);
       EXPECT_EQ(plan.number.sequence, ++last);
@@ -209,7 +209,7 @@ TEST_F(messages, no_message_whatever_breaks_it) {
     auto now = start;
     int const steps = *rc::gen::inRange(1, 40).as("steps");
     for (int i = 0; i < steps; ++i) {
-      now = now + milliseconds(*rc::gen::inRange(0, 50));
+      now += milliseconds(*rc::gen::inRange(0, 50));
       message m;
       if (*rc::gen::arbitrary<bool>()) {
         plan_message p{agent(*rc::gen::inRange(1, 12)),

@@ -54,7 +54,7 @@ struct receiver {
   }
   /// Deliberates so that b, and perhaps c, have these parts afterwards.
   rota::monitor_verdict<soccer> deliberate(part const& for_b, std::optional<part> const& for_c = std::nullopt) {
-    now = now + milliseconds(30);
+    now += milliseconds(30);
     auto const before = believed;
     put(b, for_b);
     if (for_c) put(c, *for_c);

@@ -23,7 +23,7 @@ struct pitch {
     }
   }
   void step() {
-    now = now + rota::milliseconds(1);
+    now += rota::milliseconds(1);
     for (std::size_t i = 0; i < robots.size(); ++i) {
       if ((now.ns / 1'000'000) % 30 == static_cast<std::int64_t>(i * 7 % 30)) {
         auto const d = fixture.think(robots[i], views[i], now);

@@ -239,7 +239,7 @@ TEST_F(reigns, cycles_do_not_survive_a_reign_or_a_deletion) {
     std::uint64_t n = 0;
     auto now = start;
     auto const cycle = [&] {
-      now = now + milliseconds(10);
+      now += milliseconds(10);
       a.receive(says(2, ++n, attack), now);
       return think(a, sees(5), now);
     };
@@ -251,17 +251,17 @@ TEST_F(reigns, cycles_do_not_survive_a_reign_or_a_deletion) {
     case 1:  // obeys for a while, in which messages contradict the claim
       a.receive(claim_by(9, 5), now);
       for (int i = 0; i < 3; ++i) EXPECT_EQ(cycle().cycles, 0u);
-      now = now + rota::seconds(2);
+      now += rota::seconds(2);
       (void)think(a, sees(5), now);
       break;
     case 2:  // leads for a while
       a.receive(claim_by(4, 5), now);
       for (int i = 0; i < 3; ++i) EXPECT_EQ(cycle().cycles, 0u);
-      now = now + rota::seconds(2);
+      now += rota::seconds(2);
       (void)think(a, sees(5), now);
       break;
     case 3:  // b falls silent, is deleted, and comes back
-      now = now + rota::seconds(4);
+      now += rota::seconds(4);
       (void)think(a, sees(5), now);
       a.receive(says(2, ++n, defend), now);
       (void)think(a, sees(5), now);

@@ -1,5 +1,5 @@
-// Difference and apply, and runs: every law a test of its own, such as event.apply.unique_applicable_event, for both storages
-// and for a foreign one; then one wrong model per law, in each storage.
+// Difference, apply and runs. Each law is a test of its own, such as event.apply.unique_applicable_event, for both
+// storages and for a foreign one. Then one wrong model per law, in each storage.
 
 #include "testing/foreign.hpp"
 #include "testing/wrong.hpp"
@@ -27,7 +27,7 @@ using sample::map_event;
     register_laws("dense_event", apply_theorems<dense_event>()) &&
     register_laws("dense_event", run_laws<dense_event>()) && register_laws<map_event>("map_event");
 
-// The right functions, from which each model below departs in one ----------------------------------------------------------
+// The right functions; each model below changes one ----------------------------------------------------------
 
 template <class E>
 using right = rota::structure<E>;
@@ -55,7 +55,7 @@ template <class E>
 struct swaps_the_difference : right<E> {
   static E difference(set_of<E> const& c, set_of<E> const& d) { return right<E>::difference(d, c); }
 };
-/// (C ∖ e⁻) ∪ e⁺ whether or not the event applies.
+/// (C ∖ e⁻) ∪ e⁺, whether or not e is applicable.
 template <class E>
 struct never_refuses : right<E> {
   static applied<E> apply(E const& e, set_of<E> const& c) {
@@ -108,7 +108,7 @@ TEST(wrong_apply, one_model_for_each_law_of_foreign_events) { one_model_for_each
 
 // Runs ----------------------------------------------------------------------------------------------------------------
 
-/// What has been composed so far, to which only single events can be added: right as a left fold, and in no other brackets.
+/// The composition so far, to which only single events can be added: right as a left fold, but in no other brackets.
 template <class E>
 struct accumulated {
   E value{};

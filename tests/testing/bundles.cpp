@@ -1,4 +1,4 @@
-// What bundles are: each law once whatever the diamond, refutations that can be read, generators that must not be tame.
+// Bundles: a law that arrives by two parents is there once, refutations can be read, tame generators are noticed.
 
 #include "testing/digits.hpp"
 
@@ -54,7 +54,7 @@ TEST(refutation, names_the_law_the_equation_the_shrunk_inputs_and_the_seed) {
   has("(x·y)·z is ");
   has("x·(y·z) is ");
   has("RC_PARAMS=\"seed=");
-  // Shrunk: no smaller step from −4 or 4 loses what the saturation cut off.
+  // It was shrunk: no smaller step from −4 or 4 loses what the saturation cut off.
   EXPECT_TRUE(text.find(" = 1\n") != std::string::npos || text.find(" = -1\n") != std::string::npos) << text;
 }
 
@@ -63,7 +63,7 @@ TEST(refutation, is_the_same_for_the_same_seed) {
   EXPECT_EQ(broken_laws(laws), broken_laws(laws));
 }
 
-/// Whatever the structure, its identities are all that anybody draws.
+/// Has every structure, but only its identity is ever drawn.
 struct nothing {
   friend bool operator==(nothing, nothing) = default;
   friend std::ostream& operator<<(std::ostream& out, nothing) { return out << "nothing"; }
@@ -154,7 +154,7 @@ TEST(values, shrink_to_little_and_are_never_tame) {
   EXPECT_NE(broken_laws(wrong).at("l").find("-1]\n"), std::string::npos) << broken_laws(wrong).at("l");
 }
 
-// GoogleTest knows what is registered, by name.
+// GoogleTest lists the registered tests by name.
 struct small {
   int value = 0;
   friend bool operator==(small, small) = default;

@@ -1,5 +1,5 @@
-// The free abelian group, whatever stands for the integers: every law a test of its own, such as
-// delta.abelian_group.associative; then one wrong model per law of the events inside it, and of freeness.
+// The free abelian group, over several types of integers. Each law is a test of its own, such as
+// delta.abelian_group.associative. Then one wrong model per law of the embedding of events, and of freeness.
 
 #include "testing/wrong.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Small numbers, of which most wrong models are made.
+/// Small numbers. Most wrong models are made of them.
 
 #include "testing/wrong.hpp"
 
@@ -11,7 +11,7 @@ struct digit {
   friend bool operator==(digit, digit) = default;
   friend std::ostream& operator<<(std::ostream& out, digit x) { return out << x.value; }
 };
-/// The integers; what follows changes one thing.
+/// The integers. Each wrong model changes one thing.
 struct integers {
   static digit combine(digit x, digit y) { return {x.value + y.value}; }
   static digit identity() { return {}; }

@@ -1,4 +1,4 @@
-// Def. 3 and 4: every law a test of its own, such as event.definition_4.unique_inverse; then one wrong model per law.
+// Def. 3 and 4. Each law is a test of its own, such as event.definition_4.unique_inverse. Then one wrong model per law.
 
 #include "testing/wrong.hpp"
 
@@ -24,7 +24,7 @@ using dense_event = rota::dense_event<rota::index_universe<70>>;
     register_laws("dense_event", associator_laws<dense_event>()) &&
     register_laws("dense_event", sign_function_laws<dense_event>());
 
-/// Def. 4 with another table of signs in the place of the clamped sum.
+/// Def. 4 with another table of signs instead of the clamped sum.
 template <int (*Table)(int, int)>
 struct by_table : rota::structure<event> {
   static event combine(event const& e, event const& f) {
@@ -39,14 +39,14 @@ int clamped(int s, int t) { return std::clamp(s + t, -1, 1); }
 int swapped_alone(int s, int t) { return s == 0 || t == 0 ? -(s + t) : clamped(s, t); }
 /// Wraps around instead of clamping: the group ℤ/3.
 int wrapped(int s, int t) { return (s + t + 4) % 3 - 1; }
-/// What both add is subtracted.
+/// Subtracts atoms that both events add.
 int withdrawn(int s, int t) { return s == 1 && t == 1 ? -1 : clamped(s, t); }
 
 struct inverse_does_not_swap : rota::structure<event> {
   static event inverse(event const& e) { return e; }
 };
 
-/// Signs in a map, where equality looks at nonzero ones only.
+/// Signs in a map, where equality ignores zeros.
 struct padded {
   std::map<int, int> of;
   friend bool operator==(padded const& x, padded const& y) { return x.bare() == y.bare(); }
@@ -56,7 +56,7 @@ struct padded {
     return m;
   }
 };
-/// Right as a function, but atoms that cancel stay behind with sign zero.
+/// Right as a function, but atoms that cancel stay with sign zero.
 struct keeps_zero_signs {
   static bool valid(padded const& e) { return e.of == e.bare(); }
   static padded combine(padded e, padded const& f) {
@@ -70,7 +70,7 @@ struct keeps_zero_signs {
   }
 };
 
-/// What is said about one agent that has two tasks: nothing, +1, −1, +2, −2.
+/// A statement about one agent that has two tasks: nothing, +1, −1, +2, −2.
 struct statement {
   int value = 0;
   friend bool operator==(statement, statement) = default;
@@ -170,7 +170,7 @@ TEST(wrong_sign_function, one_model_for_each_law) {
 
 }  // namespace events_test
 
-/// The claim of the paper: Def. 4, said to be an abelian group.
+/// The claim of the paper: Def. 4 is an abelian group.
 struct claimed_group {
   rota::event<sample::atom> value;
   friend bool operator==(claimed_group const&, claimed_group const&) = default;

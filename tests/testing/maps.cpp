@@ -1,5 +1,5 @@
-// Transitions, fingerprints, and what leads from one to the other: every law a test of its own, such as
-// transition.groupoid.associative; then one wrong model per law of homomorphisms, groupoids, functors and actions.
+// Transitions, fingerprints, and the maps between them. Each law is a test of its own, such as
+// transition.groupoid.associative. Then one wrong model per law of homomorphisms, groupoids, functors and actions.
 
 #include "testing/digits.hpp"
 
@@ -43,7 +43,7 @@ TEST(wrong_homomorphism, preserves_product) {
   EXPECT_EQ((broken(homomorphism_laws<delta, event>([](delta const& d) { return clamp(d); }))), "preserves_product")
       << "and the clamp";
 }
-/// The greater of two, each its own inverse as far as anybody asks.
+/// The maximum of two numbers, where each number claims to be its own inverse.
 struct maxima : integers {
   static digit combine(digit x, digit y) { return {std::max(x.value, y.value)}; }
   static digit inverse(digit x) { return x; }
@@ -69,7 +69,7 @@ struct arrow {
     return out << t.from << " -" << t.label << "-> " << t.to;
   }
 };
-/// Labels add up; what follows changes one thing.
+/// Labels add up. Each wrong model changes one thing.
 struct labels_add {
   static bool source(arrow t) { return t.from; }
   static bool target(arrow t) { return t.to; }
@@ -88,7 +88,7 @@ struct labels_count_the_messenger : labels_add {
 struct inverse_keeps_the_label : labels_add {
   static arrow inverse(arrow t) { return {t.to, t.from, t.label}; }
 };
-/// A group in which every arrow is said to start at one object and to end wherever.
+/// A group whose arrows all claim to start at one object, and end anywhere.
 struct ends_anywhere : labels_add {
   static bool source(arrow) { return false; }
   static bool target(arrow t) { return t.label == 1; }

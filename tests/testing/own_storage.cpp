@@ -1,5 +1,5 @@
-// An event type of one's own that satisfies the concept `allocation_event`: one line and it is under every law; one function,
-// `to_sparse`, and deltas, fingerprints, runs, transitions and cycles take it.
+// An event type of a user that satisfies the concept `allocation_event`. One line tests it by every law. With one
+// function, `to_sparse`, it works with deltas, fingerprints, runs, transitions and cycles.
 
 #include "testing/wrong.hpp"
 

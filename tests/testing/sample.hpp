@@ -1,5 +1,5 @@
 #pragma once
-/// What the laws are tested on: atoms of a small vocabulary, and a coefficient that is no built-in integer.
+/// The atoms of a small vocabulary, and a coefficient that is not a built-in integer.
 
 #include <rota/testing/arbitrary.hpp>
 
@@ -19,7 +19,7 @@ using atom_set = rota::atom_set<atom>;
 using event = rota::event<atom>;
 using delta = rota::delta<atom>;
 
-/// A universe around the atoms that are drawn: two plans and twelve tasks each, so that they lie in three words.
+/// A universe that holds the atoms that are drawn and many more, so that they are in three words.
 template <class Name, int... Numbers>
 using numbered = rota::name_list<Name{Numbers}...>;
 using wide_universe = rota::in_universe<names, numbered<names::agent, 0, 1, 2, 3, 4, 5>, numbered<names::plan, 0, 1>,
@@ -27,7 +27,7 @@ using wide_universe = rota::in_universe<names, numbered<names::agent, 0, 1, 2, 3
 using dense_set = rota::dense_atom_set<wide_universe>;
 using dense_event = rota::dense_event<wide_universe>;
 
-/// An integer type that is no std::integral, as big integers are: wide enough here to be exact.
+/// An integer type that is not std::integral, like big integers; wide enough here to be exact.
 struct exact {
   __extension__ using wide = __int128;
   wide value = 0;

@@ -61,7 +61,7 @@ struct nothing_comes_first : integers {
 struct nothing_comes_last : integers {
   static digit combine(digit x, digit y) { return y.value == 0 ? y : integers::combine(x, y); }
 };
-/// Every sum counts one message too many.
+/// Every sum is one too large.
 struct counts_the_messenger : integers {
   static digit combine(digit x, digit y) { return {x.value + y.value + 1}; }
   static digit inverse(digit x) { return {-x.value - 1}; }
@@ -73,7 +73,7 @@ TEST(wrong_structure, identity) {
       << "where all commutes they are one law";
 }
 
-/// Saturates, as Def. 4 does at 1: the smallest mistake that costs the group.
+/// Saturates, as Def. 4 does at 1. Only associativity breaks.
 struct saturates : integers {
   static digit combine(digit x, digit y) { return {std::clamp(x.value + y.value, -4, 4)}; }
 };
@@ -89,7 +89,7 @@ TEST(wrong_structure, events_under_definition_4_are_no_group_for_want_of_associa
 struct forgets_to_invert : integers {
   static digit inverse(digit x) { return x; }
 };
-/// The invariant "no count zero" forgotten: sums are right at each atom, but cancelled atoms stay.
+/// Ignores the invariant "no count zero": sums are right at each atom, but atoms that cancel stay.
 struct counts {
   std::map<int, int> of;
   friend bool operator==(counts const&, counts const&) = default;
@@ -129,7 +129,7 @@ TEST(wrong_structure, inverse) {
   EXPECT_EQ(broken(abelian_group_laws<counts, keeps_zero_counts>()), "left_inverse right_inverse");
 }
 
-/// Any two things cancel, so one inverse does for all.
+/// Any two elements cancel, so each is an inverse of all.
 struct everything_cancels : integers {
   static digit combine(digit x, digit y) { return x.value == 0 ? y : y.value == 0 ? x : digit{}; }
   static digit inverse(digit x) { return {x.value == 0 ? 0 : 1}; }

@@ -1,5 +1,5 @@
-// Def. 2, Prop. 1 and Def. 5: every law a test of its own, such as conflict.definition_2.conflict_iff_some_cause; then one
-// wrong model per law.
+// Def. 2, Prop. 1 and Def. 5. Each law is a test of its own, such as conflict.definition_2.conflict_iff_some_cause.
+// Then one wrong model per law.
 
 #include "testing/foreign.hpp"
 #include "testing/wrong.hpp"

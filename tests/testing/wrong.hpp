@@ -1,6 +1,6 @@
 #pragma once
-/// Which laws a wrong model breaks. Each model below is wrong in one way, and the laws that it should break are named
-/// exactly: a law that cannot fail says nothing.
+/// Which laws a wrong model breaks. Each model is wrong in one way, and the tests name exactly the laws that it should
+/// break: a law that cannot fail tests nothing.
 
 #include "testing/sample.hpp"
 
@@ -10,7 +10,8 @@
 
 #include <string>
 
-/// The names of the laws that the model breaks, in alphabetical order, with blanks between them; empty if it breaks none.
+/// The names of the laws that the model breaks, in alphabetical order, with blanks between them; empty if it breaks
+/// none.
 inline std::string broken(rota::testing::bundle const& b) {
   std::string names;
   for (auto const& [name, why] : broken_laws(b)) names += (names.empty() ? "" : " ") + name;

@@ -2,8 +2,8 @@
 /// @file
 /// Reads the plan models of ALICA: JSON as written today, and the older XML.
 ///
-/// What is read: plans with their tasks and cardinalities, plan types, tasks and roles. What is not: behaviours,
-/// conditions, state machines; files of these are listed. Every file met is accounted for in `model::documents`.
+/// It reads plans with their tasks and cardinalities, plan types, tasks and roles. It does not read behaviours, conditions
+/// and state machines, but lists their files. `model::documents` has an entry for every file that was found.
 
 #include <rota/adapters/alica/convert.hpp>
 #include <rota/adapters/alica/model.hpp>
@@ -23,7 +23,7 @@
 namespace rota::alica {
 namespace detail {
 
-/// One call of `load`.
+/// Carries out one call of `load`.
 class loader {
 public:
   explicit loader(load_options const& limits) : limits_(limits) {}
@@ -56,7 +56,7 @@ private:
     for (found_file const& f : found) add(f);
   }
 
-  /// Reads one file, unless the same file is there already.
+  /// Reads one file, unless it was read already.
   void add(found_file const& f) {
     if (!shown_.insert(f.shown).second) return;
     auto const etc = nearest_etc(f.canonical);
@@ -90,7 +90,7 @@ private:
     return out;
   }
 
-  /// Reads what needed references lead to, until nothing new turns up.
+  /// Reads the files that needed references lead to, until no new file turns up.
   void follow() {
     directory all{entries_, limits_};
     for (std::size_t i = 0; i < entries_.size(); ++i) {
@@ -98,7 +98,7 @@ private:
       for (link const& l : needed) {
         auto const wanted = l.wanted == sort::plan ? file_kind::plan : file_kind::task_repository;
         if (kind_of(l.to.file) != wanted) continue;
-        if (auto const named = all.literal(i, l)) take_up(*named, i, all);  // before any namesake
+        if (auto const named = all.literal(i, l)) take_up(*named, i, all);  // before other files of that name
         if (all.resolve(i, l, true)) continue;
         for (fs::path const& file : all.candidates(i, l)) {
           take_up(file, i, all);
@@ -108,7 +108,7 @@ private:
     }
   }
 
-  /// Reads a file that the entry `from` leads to, unless it was read.
+  /// Reads a file that the entry `from` refers to, unless it was read already.
   void take_up(fs::path const& file, std::size_t from, directory& all) {
     if (!canonical_.insert(file).second) return;
     std::error_code error;
@@ -175,7 +175,7 @@ private:
     return p;
   }
 
-  /// The older role sets give priorities to roles that a .rdefset defines: one role of both.
+  /// An older role set gives priorities to roles that a .rdefset file defines. Joins the two into one role.
   void name_roles(model& m) const {
     std::set<std::string> mappings;
     std::set<std::string> definitions;
@@ -206,12 +206,13 @@ private:
 
 }  // namespace detail
 
-/// The plan model that these files and folders hold, and everything that is wrong with them.
+/// The plan model of these files and folders, and everything that is wrong with them.
 ///
-/// Folders are read with everything below them. A needed reference to a file that is not among them is followed on
-/// disk: literally, then by file name within the nearest folder called `etc`; without one, nothing else is searched, and
-/// ids are unique within the folder common to all paths. A file with an error is refused whole and named in `diagnostics`; the others are loaded. The result does not
-/// depend on the order of `paths` nor on that in which folders list their files. Never throws but for lack of memory.
+/// Folders are read with everything below them. If a plan needs a file that is not among them, it is searched on disk: first
+/// where the reference says, then by its name within the nearest folder called `etc`. Without such a folder nothing else is
+/// searched, and ids are unique within the folder common to all paths. A file with an error is refused whole and named in
+/// `diagnostics`; the others are loaded. The result depends neither on the order of `paths` nor on the order in which folders
+/// list their files. Throws only for lack of memory.
 [[nodiscard]] inline model load(std::span<std::filesystem::path const> paths, load_options const& limits = {}) {
   return detail::loader{limits}.run(paths);
 }

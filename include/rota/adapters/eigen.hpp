@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// Eigen views: the utility matrix of a plan, and events and deltas as sparse vectors over numbered atoms.
+/// Eigen matrices as utilities and for `assign`; events and deltas as sparse vectors over numbered atoms.
 
 #include <rota/algebra/delta.hpp>
 #include <rota/algebra/event.hpp>
@@ -24,13 +24,13 @@
 
 namespace rota::eigen {
 
-/// Utilities of agents (rows) on tasks (columns), row-major as `utility_storage` keeps them; NaN forbids the pair.
+/// Utilities of agents (rows) on tasks (columns), row-major. NaN forbids the pair.
 using utility_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// What a forbidden pair reads as in a `utility_matrix`.
+/// The entry of a forbidden pair in a `utility_matrix`.
 inline constexpr double forbidden = std::numeric_limits<double>::quiet_NaN();
 
-/// Dense storage, row by row, seen as an agents × tasks matrix. Copies nothing.
+/// Views dense row-major storage as an agents × tasks matrix. Copies nothing.
 ///
 /// @pre `storage.size() == agents * tasks`, and the storage outlives the view
 [[nodiscard]] inline Eigen::Map<utility_matrix const> view(std::span<double const> storage, std::size_t agents,
@@ -43,7 +43,7 @@ inline constexpr double forbidden = std::numeric_limits<double>::quiet_NaN();
   return {storage.data(), static_cast<Eigen::Index>(agents), static_cast<Eigen::Index>(tasks)};
 }
 
-/// A utility evaluated for these agents and tasks: the matrix, forbidden pairs NaN. O(a·t) calls.
+/// The matrix of a utility for these agents and tasks. Forbidden pairs are NaN. O(a·t) calls.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] utility_matrix to_matrix(additive_utility<V, Beliefs> const& u, std::span<typename V::agent const> agents,
                                        std::span<typename V::task const> tasks, Beliefs const& beliefs) {
@@ -55,10 +55,10 @@ template <vocabulary V, class Beliefs>
   return m;
 }
 
-/// The additive utility that a matrix holds; agents and tasks outside it, and NaN entries, are forbidden. Infinities are no
-/// utilities, and named where they are counted.
+/// The additive utility that a matrix holds. NaN entries are forbidden, and so are agents and tasks that are not in it. An
+/// infinite entry is passed on: whoever counts it reports it.
 ///
-/// @param agents, tasks what the rows and columns stand for, in any order, each once
+/// @param agents, tasks the agents of the rows and the tasks of the columns, in any order, each once
 /// @pre as many agents as rows, as many tasks as columns
 template <vocabulary V, class Beliefs = no_beliefs, class Derived>
 [[nodiscard]] additive_utility<V, Beliefs> to_utility(Eigen::MatrixBase<Derived> const& matrix,
@@ -93,8 +93,8 @@ template <vocabulary V, class Beliefs = no_beliefs, class Derived>
   };
 }
 
-/// The best assignment of the agents of the rows to the tasks of the columns, see `rota::assign`. Unless the options say
-/// otherwise, NaN forbids.
+/// The best assignment of the agents of the rows to the tasks of the columns, see `rota::assign`. NaN forbids a pair, unless
+/// the options name another number.
 template <class Derived>
 [[nodiscard]] result<assignment, assign_refusal>
 assign(Eigen::MatrixBase<Derived> const& matrix, std::span<cardinality const> bounds, assign_options options = {}) {
@@ -105,9 +105,9 @@ assign(Eigen::MatrixBase<Derived> const& matrix, std::span<cardinality const> bo
   return rota::assign(std::span(rows.data(), static_cast<std::size_t>(rows.size())), bounds, options);
 }
 
-/// A bijection between finitely many atoms and 0 … size() − 1: the coordinates of a sparse vector.
+/// Numbers finitely many atoms from 0 to size() − 1: the coordinates of a sparse vector.
 ///
-/// Class invariant: ascending, so that the order of indices is the order of atoms.
+/// Class invariant: the order of indices is the order of atoms.
 template <ordered_atom Atom>
 class atom_index {
 public:
@@ -141,7 +141,7 @@ struct unnumbered {
 template <class Scalar>
 using sparse_vector = Eigen::SparseVector<Scalar>;
 
-/// δ as a sparse vector; a homomorphism on the numbered atoms. O(|δ| log n).
+/// δ as a sparse vector. The vector of a sum is the sum of the vectors. O(|δ| log n).
 template <ordered_atom Atom, class Coefficient>
 [[nodiscard]] result<sparse_vector<Coefficient>, unnumbered<Atom>> to_vector(delta<Atom, Coefficient> const& d,
                                                                              atom_index<Atom> const& index) {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <rota/core/finite.hpp>
 #include <rota/core/result.hpp>
-#include <rota/model/detail/finite.hpp>
 
 #include <compare>
 #include <cstdint>
@@ -39,7 +39,7 @@ struct fixed_utility {
 };
 
 /// The nearest fixed-point value, halves away from zero in every rounding mode; or why there is none.
-[[nodiscard]] constexpr result<fixed_utility, utility_fault> quantise(double u) noexcept {
+[[nodiscard]] constexpr result<fixed_utility, utility_fault> quantise(double const& u) noexcept {
   if (!detail::is_finite(u)) {
     if (detail::is_nan(u)) return refused{utility_fault::not_a_number};
     return refused{detail::has_minus_sign(u) ? utility_fault::negative_infinity : utility_fault::positive_infinity};

@@ -11,7 +11,9 @@ namespace rota {
 /// By how much a new allocation must beat the running one, which stays while
 /// U(best) − change costs ≤ U(current) + h, h = absolute + relative·|U(current)|.
 ///
-/// An h that is infinite or beyond `max_utility` is one that nothing beats.
+/// Choose it, or `problem::change_cost`, about as large as the noise in the utilities. With both at 0, agents that are equally
+/// good swap tasks at almost every tick.
+/// Nothing beats an h that is infinite or beyond `max_utility`.
 struct hysteresis {
   std::optional<double> absolute{};  ///< unset: the running plan's own `hysteresis()`; @pre not negative, not NaN
   double relative = 0;               ///< a share of the current utility; @pre not negative, not NaN
@@ -25,8 +27,12 @@ namespace detail {
 inline constexpr fixed_utility unbeatable{(std::numeric_limits<std::int64_t>::max)()};
 
 /// h as a fixed-point gain. @pre not negative, not NaN
-[[nodiscard]] constexpr fixed_utility margin_of(double h) noexcept {
-  ROTA_ASSERT(!is_nan(h) && !(h < 0));
+[[nodiscard]] constexpr fixed_utility margin_of(double const& h) noexcept {
+  if (!is_finite(h)) {  // before any comparison, which -ffast-math makes void
+    ROTA_ASSERT(!is_nan(h) && !has_minus_sign(h));
+    return unbeatable;
+  }
+  ROTA_ASSERT(h >= 0);
   auto const fixed = quantise(h);
   return fixed && fixed.value().units >= 0 ? fixed.value() : unbeatable;
 }

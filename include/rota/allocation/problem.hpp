@@ -43,6 +43,7 @@ inline constexpr bool is_temporary_range<std::span<T, n>, Item> = false;
 /// `current` is the running allocation. A plan that occurs there is not asked for its precondition if that is
 /// `precondition_scope::entry_only`, and `similarity` counts the atoms that stay. `change_cost` is the price of each
 /// participant who would do something else than there: a search maximises U_p less that, while validity asks for U_p alone.
+/// Without a change cost, noise in the utilities of equally good agents makes them swap tasks, see `hysteresis`.
 ///
 ///   rota::problem const here{play, team, world};
 ///   reallocate(here.running(now).with_change_cost(0.02), …);

@@ -5,6 +5,8 @@
 /// Define either before the first include to route failures to your engine, or as `((void)0)` to drop it. Neither
 /// changes a layout, or a result of a correct program.
 
+#include <rota/core/config.hpp>
+
 #ifndef ROTA_ASSERT
 #include <cassert>
 #define ROTA_ASSERT(condition) assert(condition)

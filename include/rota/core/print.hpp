@@ -81,7 +81,7 @@ concept has_floating_to_chars = requires(char* p, T x) { std::to_chars(p, p, x, 
 /// x in decimal, in the fewest digits from which the same double is read back, whatever the locale: `-1234.5`, `1e+16`,
 /// `inf`, `nan`.
 template <std::same_as<double> T>
-[[nodiscard]] std::string number(T x) {
+[[nodiscard]] std::string number(T const& x) {
   auto const bits = std::bit_cast<std::uint64_t>(x);  // not std::isnan: -ffast-math folds it to false
   auto const magnitude = bits & ~(std::uint64_t{1} << 63);
   constexpr std::uint64_t infinity = 0x7ff0'0000'0000'0000;
@@ -139,6 +139,8 @@ template <class Bytes>
 /// is nested in it), whatever string type it returns. Without one it prints the number of an enumeration, an integer or
 /// a `strong_id`, and bytes in hexadecimal; "?" for anything else.
 struct default_names {
+  static constexpr char const* unknown = "?";
+
   template <class Id>
   [[nodiscard]] std::string operator()(Id const& id) const {
     if constexpr (detail::beside::printable<Id>) {
@@ -152,7 +154,7 @@ struct default_names {
     } else if constexpr (requires { static_cast<unsigned char>(id[id.size() - 1]); }) {
       return detail::hexadecimal(id);
     } else {
-      return "?";
+      return unknown;
     }
   }
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <rota/core/config.hpp>
+
 #include <compare>
 #include <cstdint>
 #include <limits>

@@ -2,7 +2,7 @@
 
 #include <rota/model/allocation.hpp>
 #include <rota/model/cardinality.hpp>
-#include <rota/model/detail/parts.hpp>
+#include <rota/model/parts.hpp>
 #include <rota/model/utility.hpp>
 
 #include <algorithm>
@@ -155,7 +155,7 @@ public:
     if (d.team_size.is_empty()) return refused{plan_defect<V>{kind::empty_team_size, {}, d.team_size}};
     if (!detail::callable(d.utility)) return refused{plan_defect<V>{kind::missing_utility}};
     if (!detail::weights_are_finite(d.utility)) return refused{plan_defect<V>{kind::weight_not_finite}};
-    if (d.hysteresis < 0 || !detail::is_finite(d.hysteresis))
+    if (!detail::is_finite(d.hysteresis) || d.hysteresis < 0)
       return refused{plan_defect<V>{kind::threshold_not_finite}};
     return plan{std::move(d)};
   }

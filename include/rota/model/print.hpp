@@ -3,12 +3,20 @@
 /// Text for plans, cardinalities and what is wrong with their descriptions. A header of its own, since deciding needs no
 /// strings.
 
+#include <rota/algebra/print.hpp>
 #include <rota/core/print.hpp>
+#include <rota/model/allocation.hpp>
 #include <rota/model/plan_type.hpp>
 
 #include <string>
 
 namespace rota {
+
+/// `play: {In(1, 0, 1), In(2, 0, 0)}`: the plan type and the atoms. `name(id)` turns each name into a string.
+template <vocabulary V, class Names = default_names>
+[[nodiscard]] std::string to_string(allocation<V> const& c, Names const& name = {}) {
+  return name(c.type) + ": " + to_string(c.atoms, name);
+}
 
 /// `1..2`; no upper bound reads `*`.
 [[nodiscard]] inline std::string to_string(cardinality c) {

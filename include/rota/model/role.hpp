@@ -1,8 +1,8 @@
 #pragma once
 
 #include <rota/core/assert.hpp>
+#include <rota/core/finite.hpp>
 #include <rota/core/vocabulary.hpp>
-#include <rota/model/detail/finite.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -3,11 +3,11 @@
 /// Numbers in, assignment and proof out: for those who have a matrix and no plan.
 
 #include <rota/allocation/problem.hpp>
+#include <rota/core/finite.hpp>
 #include <rota/core/result.hpp>
 #include <rota/dense/flow/solver.hpp>
 #include <rota/dense/ties.hpp>
 #include <rota/model/cardinality.hpp>
-#include <rota/model/detail/finite.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -28,8 +28,7 @@ struct assign_options {
   /// assignments the total cost is to be least. (With idle agents at 0, nobody would work for a cost.)
   bool minimise = false;
   idling idle = idling::allowed;
-  std::optional<double>
-      forbidden{};  ///< the entry that forbids a pair, such as NaN or infinity; unset: every pair may be
+  std::optional<double> forbidden{};  ///< the entry that forbids a pair, such as NaN or infinity; unset: none does
 };
 
 /// An optimal assignment, with the proof that no other is better.
@@ -77,6 +76,20 @@ struct assign_refusal {
   friend bool operator==(assign_refusal const&, assign_refusal const&) = default;
 };
 
+/// The refusal in words, without its place: `result` prints it where a refused assignment is taken for an assignment.
+[[nodiscard]] constexpr char const* reason_of(assign_refusal const& r) noexcept {
+  switch (r.why) {
+  case assign_fault::sizes_differ: return "sizes_differ: the matrix does not have one entry per task in every row";
+  case assign_fault::empty_bounds: return "empty_bounds: the bounds of a task admit no number of agents";
+  case assign_fault::not_a_number: return "not_a_number: an entry is NaN";
+  case assign_fault::infinite: return "infinite: an entry is infinite";
+  case assign_fault::too_large: return "too_large: an entry is too large for exact sums";
+  case assign_fault::task_short: return "task_short: a task cannot get as many agents as its bounds ask for";
+  case assign_fault::agent_stuck: return "agent_stuck: an agent finds no room in a task, and idling is forbidden";
+  }
+  return "?";
+}
+
 namespace detail {
 
 /// 2^e. @pre -1022 ≤ e ≤ 1023
@@ -84,11 +97,11 @@ namespace detail {
   return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + e) << 52);
 }
 /// The least e with |x| < 2^e, or a little more for the tiniest numbers. @pre x is finite
-[[nodiscard]] constexpr int magnitude_of(double x) noexcept {
+[[nodiscard]] constexpr int magnitude_of(double const& x) noexcept {
   return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff) - 1022;
 }
 /// The greatest e such that x is a multiple of 2^e. @pre x is finite and not 0
-[[nodiscard]] constexpr int grain_of(double x) noexcept {
+[[nodiscard]] constexpr int grain_of(double const& x) noexcept {
   auto const bits = std::bit_cast<std::uint64_t>(x);
   auto const exponent = static_cast<int>(bits >> 52 & 0x7ff);
   auto const digits = (bits & ((std::uint64_t{1} << 52) - 1)) | std::uint64_t{exponent != 0} << 52;
@@ -101,11 +114,10 @@ namespace detail {
   return whole + static_cast<int>(rest >= 0.5) - static_cast<int>(rest <= -0.5);
 }
 
-[[nodiscard]] constexpr bool forbids(assign_options const& options, double x) noexcept {
+[[nodiscard]] constexpr bool forbids(assign_options const& options, double const& x) noexcept {
   if (!options.forbidden) return false;
-  if (is_finite(x)) return x == *options.forbidden;
-  return is_nan(x) ? is_nan(*options.forbidden)
-                   : std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(*options.forbidden);
+  if (is_nan(x)) return is_nan(*options.forbidden);
+  return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(*options.forbidden);
 }
 
 /// One call of `assign`: the matrix as integers, row per agent, idle last.
@@ -142,7 +154,7 @@ private:
       slot_bounds_.push_back({bounds_[k].lower(), static_cast<std::uint32_t>(upper)});
     }
     for (std::size_t i = 0; i < matrix_.size(); ++i) {
-      double const x = matrix_[i];
+      double const& x = matrix_[i];
       if (forbids(options_, x)) continue;
       assign_refusal const here{{}, i / tasks_, i % tasks_};
       if (is_nan(x)) return assign_refusal{assign_fault::not_a_number, here.agent, here.task};
@@ -171,7 +183,7 @@ private:
     utility_.assign(agents_ * slots_, dense::absent);
     for (std::size_t a = 0; a < agents_; ++a)
       for (std::size_t k = 0; k < tasks_; ++k) {
-        double const entry = matrix_[a * tasks_ + k];
+        double const& entry = matrix_[a * tasks_ + k];
         if (forbids(options_, entry)) continue;
         auto const units = nearest(options_.minimise ? -entry * scale : entry * scale);
         utility_[a * slots_ + k] = units;
@@ -301,7 +313,7 @@ assign(std::span<double const> matrix, std::initializer_list<cardinality> bounds
     std::optional<double> best;
     if (bounds[tasks].upper() > 0) best = -idle_counts - prices[tasks];
     for (std::size_t k = 0; k < tasks; ++k) {
-      double const entry = matrix[a * tasks + k];
+      double const& entry = matrix[a * tasks + k];
       if (detail::forbids(options, entry)) continue;
       double const rounded = static_cast<double>(detail::nearest(entry / step)) * step;
       double const gain = (options.minimise ? -rounded : rounded) - prices[k];

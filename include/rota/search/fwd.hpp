@@ -6,6 +6,10 @@ namespace rota {
 
 struct search_budget;
 class workspace;
+struct assignment;
+struct assign_options;
+struct assign_refusal;
+enum class assign_fault : unsigned char;
 enum class no_plan_reason : unsigned char;
 enum class reallocation_reason : unsigned char;
 template <vocabulary V>

@@ -7,6 +7,7 @@
 #include <rota/allocation/print.hpp>
 #include <rota/core/print.hpp>
 #include <rota/dense/print.hpp>
+#include <rota/search/assign.hpp>
 #include <rota/search/reallocate.hpp>
 
 #include <optional>
@@ -43,6 +44,36 @@ namespace rota {
   case reallocation_reason::kept_unproved: return "nothing better was found within the budget";
   case reallocation_reason::no_valid_allocation: return "there is no valid allocation";
   case reallocation_reason::search_incomplete: return "no valid allocation was found within the budget";
+  }
+  return "?";
+}
+
+[[nodiscard]] inline std::string to_string(assign_fault f) {
+  switch (f) {
+  case assign_fault::sizes_differ: return "the sizes differ";
+  case assign_fault::empty_bounds: return "empty bounds";
+  case assign_fault::not_a_number: return "not a number";
+  case assign_fault::infinite: return "infinite";
+  case assign_fault::too_large: return "too large";
+  case assign_fault::task_short: return "a task lacks agents";
+  case assign_fault::agent_stuck: return "an agent finds no task";
+  }
+  return "?";
+}
+
+/// Why `assign` refused. Agents and tasks are named by their row and column, counted from 0.
+[[nodiscard]] inline std::string describe(assign_refusal const& r) {
+  auto const agent = "agent " + std::to_string(r.agent);
+  auto const task = "task " + std::to_string(r.task);
+  switch (r.why) {
+  case assign_fault::sizes_differ: return "the matrix does not have one entry per task in every row";
+  case assign_fault::empty_bounds: return "the bounds of " + task + " admit no number of agents";
+  case assign_fault::not_a_number: return "the entry of " + agent + " and " + task + " is not a number";
+  case assign_fault::infinite: return "the entry of " + agent + " and " + task + " is infinite";
+  case assign_fault::too_large:
+    return "the entry of " + agent + " and " + task + " is too large for exact sums over so many agents and tasks";
+  case assign_fault::task_short: return task + " cannot get as many agents as its bounds ask for";
+  case assign_fault::agent_stuck: return agent + " finds no room in a task, and idling is forbidden";
   }
   return "?";
 }

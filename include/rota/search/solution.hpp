@@ -5,6 +5,7 @@
 #include <rota/search/limits.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace rota {
@@ -85,7 +86,7 @@ struct plan_refusal {
   bool about_atom = false;  ///< utility_refused: whether the fault is that of `agent` on `task`
   bool about_pair = false;  ///< utility_refused: whether it is that of both together with `other`
   in<V> other{};
-  std::size_t count = 0;
+  std::uint64_t count = 0;
   cardinality bounds{};
   utility_fault fault{};
   double value = 0;

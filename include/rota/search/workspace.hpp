@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/dense/detail/hidden.hpp>
+#include <rota/dense/hidden.hpp>
 #include <rota/search/detail/plan_memory.hpp>
 
 namespace rota {
@@ -17,7 +17,7 @@ struct workspace_access;
 /// are pairwise. These also need a solver of up to 120 MB (see `dense::pair_solver`).
 class workspace {
   friend struct detail::workspace_access;
-  dense::detail::hidden<detail::search_state> state_;
+  dense::hidden<detail::search_state> state_;
 };
 
 namespace detail {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/core/lifetime.hpp>
 #include <rota/search/best_allocation.hpp>
 #include <rota/sim/simulation.hpp>
 
@@ -82,7 +83,7 @@ public:
   static constexpr duration calm = milliseconds(300);
 
   /// `simulation` must outlive the metrics.
-  metrics(Simulation const& simulation, instant begin)
+  metrics(Simulation const& simulation ROTA_LIFETIMEBOUND, instant begin)
       : simulation_(simulation), begin_(begin), beliefs_(simulation.size()), reigns_(simulation.size()) {
     figures_.led.resize(simulation.size());
   }
@@ -147,7 +148,7 @@ private:
       if (conflict != conflict_) turn(conflict, now_);
     }
     if (now_ < begin_ && begin_ <= t && conflict_) episode_ = begin_;
-    if (conflict_) figures_.in_conflict = figures_.in_conflict + (std::max)(t - (std::max)(now_, begin_), duration{});
+    if (conflict_) figures_.in_conflict += (std::max)(t - (std::max)(now_, begin_), duration{});
     now_ = t;
   }
 

@@ -30,7 +30,7 @@ public:
   /// Plays all ticks up to time t. O(robots) per tick.
   void advance(instant t) {
     while (now_ + options_.tick <= t) {
-      now_ = now_ + options_.tick;
+      now_ += options_.tick;
       scenario_ == scenario::hour ? tick_play() : tick_round();
       for (std::size_t i = 0; i < bodies_.size(); ++i) sway(i);
     }

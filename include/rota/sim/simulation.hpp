@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/core/lifetime.hpp>
 #include <rota/sim/clock.hpp>
 #include <rota/sim/log.hpp>
 #include <rota/sim/network.hpp>
@@ -34,7 +35,7 @@ public:
   using robot_type = rota::robot<names, Monitor>;
 
   /// `book` must outlive the simulation. Each robot lives once: its incarnation is 1.
-  simulation(playbook const& book, World world, simulation_options const& options = {})
+  simulation(playbook const& book ROTA_LIFETIMEBOUND, World world, simulation_options const& options = {})
       : book_(book),
         world_(std::move(world)),
         members_(team_of(world_.state().robots.size())),
@@ -144,7 +145,7 @@ private:
   template <class Observer>
   void deliberate(std::size_t i, Observer& observe) {
     robot_record& r = robots_[i];
-    r.next_loop = r.next_loop + r.clock.loop();
+    r.next_loop += r.clock.loop();
     push(r.clock.global(r.next_loop), kind::deliberation, i);
     world_.advance(now_);
     r.eyes.look(world_.state(), r.belief);

@@ -82,8 +82,8 @@ struct [[nodiscard]] decision {
   bool reign_began = false;                     ///< the robot claims authority from now on
   bool reign_ended = false;                     ///< a reign has ended since the last deliberation
   duration clock_set_back{};                    ///< by so much the robot's clock was set back since its last decision
-  small_vector<typename V::plan_type, 4>
-      executed;  ///< if `not_executing`: the types that the robot executes, ascending
+  /// The plan types that the robot executes, ascending; filled only if the reason is `not_executing`.
+  small_vector<typename V::plan_type, 4> executed;
 };
 
 /// Parameters of a robot; the defaults are the paper's.

@@ -238,6 +238,7 @@ public:
       p.current = here.atoms();
       p.change_cost = options_.change_cost;
       auto& next = d.search.emplace(reallocate(p, options_.hysteresis, space, budget));
+      ROTA_ASSERT(t->knows(next.atoms));  // or else another plan type was entered under this id
       t->blind = !next.plan;
       auto const adopted = t->blind ? others(here) : next.atoms;
       d.event = difference(t->believed.atoms(), adopted);

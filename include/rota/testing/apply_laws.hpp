@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The laws of `difference` and `apply`, and of runs, for events E and sets of any storage. The structure S names the
-/// functions; storage.hpp says what a type of your own needs beside them.
+/// The laws of `difference` and `apply`, and of runs, for events E and sets in any storage. The structure S names the
+/// functions. storage.hpp says what else a type of your own needs.
 
 #include <rota/algebra/apply.hpp>
 #include <rota/algebra/runs.hpp>
@@ -14,13 +14,13 @@ namespace rota::testing {
 
 namespace detail {
 
-/// The event that leads from c to d, as Def. 3 spells it.
+/// The event that leads from c to d, built as Def. 3 says.
 template <class Atom>
 [[nodiscard]] event<Atom> leading(atom_set<Atom> const& c, atom_set<Atom> const& d) {
   return event<Atom>::make(subtract(d, c), subtract(c, d)).value();
 }
 
-/// The atoms at which χ(c) + ι(e) leaves {0, 1}, by counting.
+/// The atoms at which χ(c) + ι(e) leaves {0, 1}, found by counting.
 template <class Atom>
 [[nodiscard]] atom_set<Atom> offending(event<Atom> const& e, atom_set<Atom> const& c) {
   atom_set<Atom> atoms;
@@ -31,7 +31,7 @@ template <class Atom>
   return atoms;
 }
 
-/// A set C and an event that may be applied at it, each as drawn and as stored.
+/// A set C and an event that is often applicable at it, each as drawn and as stored.
 template <class E, class S>
 struct event_at_set {
   using as = storage<E, S>;
@@ -112,7 +112,7 @@ template <class E, class S = structure<E>>
            {{"both change something"}});
   return laws;
 }
-/// difference_is_a_functor: follows from the unique event and compatibility.
+/// difference_is_a_functor. It follows from unique_applicable_event and compatible_with_compose.
 template <class E, class S = structure<E>>
   requires acts_on_sets<E, S>
 [[nodiscard]] bundle apply_theorems() {
@@ -131,7 +131,7 @@ template <class E, class S = structure<E>>
   return laws;
 }
 
-/// What the bracketings of e₁∘…∘eₙ come to under S: all Catalan(n − 1) of them, so keep n small. @pre n ≥ 1
+/// The results of all bracketings of e₁∘…∘eₙ under S. There are Catalan(n − 1), so keep n small. @pre n ≥ 1
 template <class S, class E>
 [[nodiscard]] std::vector<E> every_bracketing(std::span<E const> events) {
   if (events.size() == 1) return {events[0]};
@@ -152,7 +152,7 @@ template <class S, class E>
   return folded;
 }
 
-/// `S::compose_run`, or the library's.
+/// By `S::compose_run` if there is one, else by the library's.
 template <class S, class E>
 [[nodiscard]] auto composed_run(std::vector<E> const& events) {
   if constexpr (requires { S::compose_run(std::span<E const>(events)); })
@@ -163,7 +163,7 @@ template <class S, class E>
 template <class E, class S>
 concept composes_runs = allocation_event<E> || requires(std::span<E const> events) { S::compose_run(events); };
 
-/// Events that lead from a drawn set on.
+/// Events that lead from one drawn set to the next.
 template <class Atom>
 [[nodiscard]] std::vector<event<Atom>> draw_run() {
   static constexpr char const* steps[] = {"e₁ leads to", "e₂ leads to", "e₃ leads to", "e₄ leads to", "e₅ leads to"};
@@ -184,7 +184,7 @@ template <class E, class S>
   return r;
 }
 
-/// Whether at each atom the nonzero signs alternate.
+/// Whether the nonzero signs alternate at each atom.
 template <class Atom>
 [[nodiscard]] bool alternates(std::vector<event<Atom>> const& events) {
   std::vector<Atom> mentioned;
@@ -201,7 +201,7 @@ template <class Atom>
   return true;
 }
 
-/// Whether some atom moves three times.
+/// Whether three of the events mention one atom.
 template <class Atom>
 [[nodiscard]] bool comes_and_goes(std::vector<event<Atom>> const& events) {
   for (auto const& e : events)
@@ -213,7 +213,7 @@ template <class Atom>
 
 }  // namespace detail
 
-/// brackets_do_not_matter, left_fold_is_the_sum; and if there is a `compose_run`, compose_run_is_the_left_fold,
+/// brackets_do_not_matter, left_fold_is_the_sum. If there is a `compose_run`, also compose_run_is_the_left_fold and
 /// compose_run_refuses_the_rest.
 template <class E, class S = structure<E>>
   requires acts_on_sets<E, S>

@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// rapidcheck generators of the algebra's types, over few atoms, so that random values meet; see values.hpp.
+/// rapidcheck generators for the types of the algebra, over few atoms, so that random values share some; see
+/// values.hpp.
 
 #include <rota/algebra/claimed_structures.hpp>
 #include <rota/testing/groupoid_laws.hpp>
@@ -15,8 +16,8 @@
 
 namespace rota::testing {
 
-/// The atoms that generators draw: `static Atom nth(std::size_t i)` for i < 24, strictly ascending. Specialise it for
-/// atoms of your own; enumerations, integers, `strong_id`s of them and In-atoms made of such are known.
+/// The atoms that generators draw: `static Atom nth(std::size_t i)` for i < 24, strictly ascending. It is there for
+/// enumerations, integers, `strong_id`s of these and In-atoms made of these. Specialise it for atoms of your own.
 template <class Atom>
 struct sample_atoms;
 
@@ -29,7 +30,7 @@ template <class Tag, class Rep>
 struct sample_atoms<strong_id<Tag, Rep>> {
   static constexpr strong_id<Tag, Rep> nth(std::size_t i) { return {sample_atoms<Rep>::nth(i)}; }
 };
-/// Four to an agent, so that few atoms hold one agent's rival tasks and plans.
+/// Four atoms per agent, so that few atoms are enough for one agent to have two tasks, or a task in two plans.
 template <vocabulary V>
 struct sample_atoms<in<V>> {
   static constexpr in<V> nth(std::size_t i) {
@@ -43,13 +44,13 @@ template <class Atom>
   return sample_atoms<Atom>::nth(i);
 }
 
-/// One of the first six.
+/// One of the first six atoms.
 template <class Atom>
 [[nodiscard]] rc::Gen<Atom> an_atom() {
   return rc::gen::map(integer(0, 5), [](int i) { return nth_atom<Atom>(static_cast<std::size_t>(i)); });
 }
 
-/// The set of the atoms whose entry is `which`.
+/// The atoms whose entry in `values` is `which`.
 template <class Atom>
 [[nodiscard]] constexpr atom_set<Atom> atoms_where(std::vector<int> const& values, int which) {
   atom_set<Atom> c;
@@ -57,13 +58,14 @@ template <class Atom>
     if (values[i] == which) c.insert(nth_atom<Atom>(i));
   return c;
 }
-/// The event with these signs, built as Def. 3 says, from two sets: by neither `compose` nor `difference`.
+/// The event with these signs, built from two sets as Def. 3 says, so without `compose` and `difference`.
 template <class Atom>
 [[nodiscard]] constexpr event<Atom> event_with(std::vector<int> const& signs) {
   return event<Atom>::make(atoms_where<Atom>(signs, 1), atoms_where<Atom>(signs, -1)).value();
 }
 
-/// An event that may be applied at c: some atoms moved into c or out of it, in about half of all cases some the wrong way.
+/// An event that is applicable at c in about half of all cases. In the others it adds atoms of c, or subtracts atoms
+/// that are not in c.
 template <class Atom>
 [[nodiscard]] rc::Gen<event<Atom>> event_at(atom_set<Atom> const& c) {
   return made_of<event<Atom>>(-1, 1, [c](std::vector<int> signs) {
@@ -72,7 +74,7 @@ template <class Atom>
     return event_with<Atom>(signs);
   });
 }
-/// c with some atoms put in that were out and out that were in.
+/// c with some atoms flipped: inserted if absent, erased if present.
 template <class Atom>
 [[nodiscard]] rc::Gen<atom_set<Atom>> set_flipped(atom_set<Atom> const& c) {
   return made_of<atom_set<Atom>>(0, 1, [c](std::vector<int> const& marks) {
@@ -82,7 +84,7 @@ template <class Atom>
     return d;
   });
 }
-/// A set related to c: equal, a part of it, more than it, and any other, each often.
+/// A set that is often equal to c, a subset, a superset, or neither.
 template <class Atom>
 [[nodiscard]] rc::Gen<atom_set<Atom>> set_beside(atom_set<Atom> const& c) {
   return made_of<atom_set<Atom>>(-1, 2, [c](std::vector<int> const& marks) {
@@ -127,7 +129,7 @@ struct class_invariant<delta<Atom, Coefficient>> {
   }
 };
 
-/// c in another storage. @pre all that is drawn is in the universe, if there is one
+/// c in another storage. @pre if the storage has a universe, c is within it
 template <allocation_set Set>
 [[nodiscard]] constexpr Set stored_as(atom_set<typename event_on<Set>::atom_type> const& c) {
   Set r;
@@ -137,7 +139,7 @@ template <allocation_set Set>
   }
   return r;
 }
-/// And back.
+/// c as an `atom_set`.
 template <allocation_set Set>
 [[nodiscard]] constexpr auto sparse(Set const& c) {
   if constexpr (requires { to_sparse(c); })
@@ -146,7 +148,7 @@ template <allocation_set Set>
     return c;
 }
 
-/// From C on: to any set.
+/// Arrows from c to any set.
 template <allocation_set Set>
 struct arrows<transition<Set>> {
   [[nodiscard]] static rc::Gen<transition<Set>> from(Set const& c) {
@@ -173,7 +175,7 @@ struct rc::Arbitrary<rota::event<Atom>> {
     return rota::testing::made_of<rota::event<Atom>>(-1, 1, &rota::testing::event_with<Atom>);
   }
 };
-/// The first and last atoms of the universe.
+/// Draws from both ends of the universe.
 template <rota::fixed_universe U>
 struct rc::Arbitrary<rota::dense_event<U>> {
   static Gen<rota::dense_event<U>> arbitrary() {
@@ -187,7 +189,7 @@ struct rc::Arbitrary<rota::dense_event<U>> {
     });
   }
 };
-/// Multiplicities from −4 to 4: sums of a dozen fit into eight bits.
+/// Multiplicities from −4 to 4, so that sums of a dozen deltas fit into eight bits.
 template <rota::ordered_atom Atom, rota::integer_coefficient Coefficient>
 struct rc::Arbitrary<rota::delta<Atom, Coefficient>> {
   static Gen<rota::delta<Atom, Coefficient>> arbitrary() {
@@ -199,7 +201,7 @@ struct rc::Arbitrary<rota::delta<Atom, Coefficient>> {
     });
   }
 };
-/// Any 64 bits; zero and its neighbours often.
+/// Any 64 bits, often 0, 1 or −1.
 template <>
 struct rc::Arbitrary<rota::fingerprint> {
   static Gen<rota::fingerprint> arbitrary() {
@@ -211,7 +213,7 @@ struct rc::Arbitrary<rota::fingerprint> {
     };
   }
 };
-/// Each atom is in neither set, in one, or in both: equal, nested and unrelated sets are all frequent.
+/// Each atom is in neither set, in one, or in both. So source and target are often equal, nested, or unrelated.
 template <rota::allocation_set Set>
 struct rc::Arbitrary<rota::transition<Set>> {
   static Gen<rota::transition<Set>> arbitrary() {

@@ -11,14 +11,14 @@ namespace rota::testing {
 
 namespace detail {
 
-/// rapidcheck reports to a listener; this one says nothing.
+/// A listener that prints nothing; rapidcheck reports to one.
 struct silence final : rc::detail::TestListener {
   void onTestCaseFinished(rc::detail::CaseDescription const&) override {}
   void onShrinkTried(rc::detail::CaseDescription const&, bool) override {}
   void onTestFinished(rc::detail::TestMetadata const&, rc::detail::TestResult const&) override {}
 };
 
-/// What `RC_PARAMS` says, but a thousand cases instead of a hundred if it does not say how many.
+/// As `RC_PARAMS` says, but a thousand cases, not a hundred, unless it gives their number.
 [[nodiscard]] inline rc::detail::TestParams parameters() {
   auto p = rc::detail::configuration().testParams;
   char const* const given = std::getenv("RC_PARAMS");
@@ -32,7 +32,7 @@ struct silence final : rc::detail::TestListener {
   return r;
 }
 
-/// Which of the promised shares of cases were not reached. Fewer than a thousand cases say too little to judge.
+/// The shares of interesting cases that the generator did not reach. Fewer than a thousand cases are not judged.
 [[nodiscard]] inline std::string tame(law const& l, rc::detail::SuccessResult const& success) {
   std::string complaint;
   if (success.numSuccess < 1000) return complaint;
@@ -49,11 +49,11 @@ struct silence final : rc::detail::TestListener {
 
 }  // namespace detail
 
-/// Why this law cannot be said to hold: it, its equation, and the shrunk inputs by name; or that the generator hardly
-/// reaches its interesting cases. Empty if it passed. Prints nothing. `called` is the name shown.
+/// Tests a law. Returns nothing if it passed. Otherwise returns the text for a person: the law by the name `called`,
+/// its equation and the shrunk inputs by name, or that the generator reaches too few interesting cases. Prints nothing.
 ///
-/// Runs as many cases as `RC_PARAMS` says, a thousand if it does not; `RC_PARAMS="seed=…"`, which the text repeats, sets
-/// the seed.
+/// Runs as many cases as `RC_PARAMS` says, a thousand if it does not say. `RC_PARAMS="seed=…"` sets the seed; the text
+/// repeats it.
 [[nodiscard]] inline std::optional<std::string> refutation(law const& l, std::string const& called) {
   using namespace rc::detail;
   auto const params = testing::detail::parameters();
@@ -79,7 +79,7 @@ struct silence final : rc::detail::TestListener {
          testing::detail::indented(why);
 }
 
-/// The laws of a bundle that do not pass, each with its `refutation`. Needs no test framework.
+/// The laws of a bundle that do not pass, each with its `refutation`. For use without a test framework.
 [[nodiscard]] inline std::map<std::string, std::string> broken_laws(bundle const& b) {
   std::map<std::string, std::string> broken;
   for (law const& l : b.laws())

@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The laws of cycles, Def. 5, for events E of any storage.
+/// The laws of cycles, Def. 5, for events E in any storage.
 
 #include <rota/team/cycle.hpp>
 #include <rota/testing/storage.hpp>
@@ -12,7 +12,7 @@ namespace rota::testing {
 
 namespace detail {
 
-/// The agent of an atom: `S::agent(x)`, or the one of In(a, p, τ).
+/// The agent of an atom: `S::agent(x)` if there is one, else a of In(a, p, τ).
 template <class S, class Atom>
   requires requires(Atom const& x) { S::agent(x); } || requires(Atom const& x) { x.agent; }
 [[nodiscard]] auto agent_of(Atom const& x) {
@@ -25,13 +25,13 @@ template <class E, class S>
 concept has_own_cycles = requires(E const& e, typename storage<E, S>::atom_type const& x) {
   { S::is_cycle(e, e, agent_of<S>(x)) } -> std::same_as<bool>;
 };
-/// Whether Def. 5 can be asked: of S, or of the library, which knows it for In-atoms.
+/// Whether there is an `is_cycle`: that of S, or that of the library, which is for In-atoms.
 template <class E, class S>
 concept knows_cycles = has_own_cycles<E, S> || requires(E const& e, typename storage<E, S>::atom_type const& x) {
   rota::is_cycle(e, e, agent_of<S>(x));
 };
 
-/// `S::is_cycle`, or the library's.
+/// By `S::is_cycle` if there is one, else by the library's.
 template <class S, class E, class Agent>
 [[nodiscard]] bool says_cycle(E const& e_m, E const& e_r, Agent const& b) {
   if constexpr (requires { S::is_cycle(e_m, e_r, b); })
@@ -61,7 +61,7 @@ template <class E, class S = structure<E>>
            [] {
              auto const b = detail::agent_of<S>(*an_atom<Atom>().as("an atom of b"));
              auto const e_m = draw<sparse_event>("e_m");
-             // Often what undoes e_m, at all atoms or at some.
+             // e_r often undoes e_m, at all atoms or at some.
              std::vector<int> const undo =
                  *values(-1, 1).as("at the i-th atom e_r: 0 undoes e_m, 1 adds, -1 subtracts");
              std::vector<int> signs(24);
@@ -86,7 +86,7 @@ template <class E, class S = structure<E>>
   });
   return laws;
 }
-/// What it means: restores_b_s_part, for e_m applied at C, and e_r right after it.
+/// What a cycle means: restores_b_s_part, for e_m applied at C, and e_r right after it.
 template <class E, class S = structure<E>>
 [[nodiscard]] bundle cycle_theorems() {
   using as = storage<E, S>;

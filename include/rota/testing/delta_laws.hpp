@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// What makes deltas more than a group: the events inside them, and freeness. Each bundle takes a model
-/// M of the functions that it is about; the defaults are the library's own.
+/// The laws of deltas beyond those of a group: how events embed into them, and that they are free. Each bundle takes a
+/// model M that names the functions. The models here name the library's own.
 
 #include <rota/testing/arbitrary.hpp>
 
@@ -20,8 +20,8 @@ struct embedding_model {
   [[nodiscard]] static event_type compose(event_type const& e, event_type const& f) { return rota::compose(e, f); }
 };
 
-/// clamp_retracts_the_embedding, compose_is_the_clamped_sum. Neither map is a homomorphism: `homomorphism_laws` of each
-/// fail in `preserves_product`, and nothing else.
+/// clamp_retracts_the_embedding, compose_is_the_clamped_sum. Neither map is a homomorphism: of the `homomorphism_laws`,
+/// each breaks `preserves_product` and nothing else.
 template <class M>
 [[nodiscard]] bundle embedding_laws() {
   using E = typename M::event_type;
@@ -45,7 +45,7 @@ template <class M>
   return laws;
 }
 
-/// ℤ/60: an abelian group that is not free, so that sums of multiples vanish by more than cancelling.
+/// ℤ/60: an abelian group that is not free, so a sum of multiples may vanish although nothing cancels.
 struct residue {
   int value = 0;
 
@@ -66,7 +66,7 @@ struct extension_model {
 
 namespace detail {
 
-/// An arbitrary map from atoms to ℤ/60, by a drawn table.
+/// Any map from atoms to ℤ/60, by a drawn table.
 template <class Atom>
 [[nodiscard]] auto draw_map(char const* name) {
   return [table = *values(0, 59).as(name)](Atom const& x) {
@@ -78,7 +78,8 @@ template <class Atom>
 
 }  // namespace detail
 
-/// agrees_on_generators, additive: the homomorphism of the universal property. It is the only one, as atoms generate.
+/// agrees_on_generators, additive: the homomorphism of the universal property. It is the only one, because the atoms
+/// generate the group.
 template <class M>
 [[nodiscard]] bundle extension_laws() {
   using D = typename M::delta_type;

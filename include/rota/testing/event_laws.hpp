@@ -10,8 +10,8 @@
 
 namespace rota::testing {
 
-/// e as the finite map that it is: the atoms with a sign, to −1 or +1. `S::signs(e)` says it for a type of your own;
-/// without that `additions()` and `subtractions()` do.
+/// e as a finite map from the atoms with a sign to −1 or +1. For a type of your own, by `S::signs(e)`, or else by
+/// `additions()` and `subtractions()`.
 template <class S, class E>
 [[nodiscard]] auto signs_of(E const& e) {
   if constexpr (requires { S::signs(e); }) {
@@ -28,7 +28,7 @@ template <class S, class E>
 
 namespace detail {
 
-/// The value of a finite map, 0 where it has none.
+/// The value of a finite map at x, or 0 if it has none.
 template <class Map>
 [[nodiscard]] int value_at(Map const& signs, typename Map::key_type const& x) {
   auto const where = signs.find(x);
@@ -37,10 +37,10 @@ template <class Map>
 
 }  // namespace detail
 
-/// commutative_magma, invertible_magma, idempotent, unique_inverse. No group: `group_laws` fail in `associative`, and
-/// nothing else.
+/// commutative_magma, invertible_magma, idempotent, unique_inverse. Events are not a group: of the `group_laws` they
+/// break `associative` and nothing else.
 ///
-/// At one atom, identity, inverse and idempotent leave no operation but Def. 4.
+/// At one atom, Def. 4 is the only operation with this identity, these inverses, and idempotent elements.
 template <class E, class S = structure<E>>
 [[nodiscard]] bundle event_laws() {
   bundle laws("definition_4");
@@ -56,7 +56,7 @@ template <class E, class S = structure<E>>
   laws.add("unique_inverse", "e∘f = ∅ = e∘g ⇒ f = g", [] {
     auto const e = draw<E>("e");
     auto const f = draw<E>("f");
-    // Two random events seldom cancel, so the inverse and something near it as well.
+    // Two random events seldom cancel, so the inverse and an event near it are tried too.
     std::vector<E> inverses{f, S::inverse(e), S::combine(S::inverse(e), f)};
     std::erase_if(inverses, [&](E const& g) { return !(S::combine(e, g) == S::identity()); });
     for (E const& g : inverses) same("an inverse of e", g, "another", inverses.front());
@@ -64,7 +64,7 @@ template <class E, class S = structure<E>>
   return laws;
 }
 
-/// When brackets do not matter: vanishes_iff_no_bad_sign_triple.
+/// vanishes_iff_no_bad_sign_triple: when brackets do not matter.
 template <class E, class S = structure<E>>
 [[nodiscard]] bundle associator_laws() {
   bundle laws("associator");
@@ -96,7 +96,7 @@ template <class E, class S = structure<E>>
   return laws;
 }
 
-/// Def. 3 and 4 atom by atom, which determines everything: signs, equality, identity, inverse, composition.
+/// Def. 3 and 4 at each atom: equality, identity, inverse, composition. They determine an event completely.
 template <class E, class S = structure<E>>
 [[nodiscard]] bundle sign_function_laws() {
   bundle laws("sign_function");
@@ -138,7 +138,7 @@ template <class E, class S = structure<E>>
   return laws;
 }
 
-/// All of the above: what an allocation event is.
+/// All laws above.
 template <class E, class S = structure<E>>
 [[nodiscard]] bundle allocation_event_laws() {
   return bundle("allocation_event")

@@ -7,8 +7,9 @@
 
 namespace rota::testing {
 
-/// Generates arrows that start at a given object, so that composable ones can be drawn: specialise with
-/// `static rc::Gen<T> from(Object const&)`. Without it arbitrary arrows are tried until one fits, which takes few objects.
+/// Generates arrows that start at a given object, so that composable arrows can be drawn. Specialise it with
+/// `static rc::Gen<T> from(Object const&)`; without that, arrows are drawn until one fits, which is feasible for few
+/// objects.
 template <class T>
 struct arrows {
   template <class Object>
@@ -20,7 +21,7 @@ struct arrows {
 
 namespace detail {
 
-/// Nothing is tested by arrows that go nowhere.
+/// Arrows from an object to itself test little.
 constexpr share without_standing_still{"no arrow is an identity", 10};
 template <class S, class... T>
 void count_moving(T const&... arrows) {
@@ -29,7 +30,7 @@ void count_moving(T const&... arrows) {
 
 }  // namespace detail
 
-/// ends, identity, associative, inverse; of the structure S, see structure_laws.hpp.
+/// ends, identity, associative, inverse. For S, see structure_laws.hpp.
 template <class T, class S = structure<T>>
 [[nodiscard]] bundle groupoid_laws() {
   static constexpr auto after = [](T const& t, char const* name) -> T {
@@ -77,7 +78,7 @@ template <class T, class S = structure<T>>
   return laws;
 }
 
-/// preserves_composition (hence identities and inverses): of a function from a groupoid to a group, here under `combine`.
+/// preserves_composition, for a function f from a groupoid to a group. Identities and inverses follow.
 template <class T, class G, class S = structure<T>, class R = structure<G>>
 [[nodiscard]] bundle functor_laws(std::function<G(T const&)> f) {
   bundle laws("functor");
@@ -92,7 +93,7 @@ template <class T, class G, class S = structure<T>, class R = structure<G>>
   return laws;
 }
 
-/// identity, compatible; of the action A of the structure S.
+/// identity, compatible; for the action A of the structure S.
 template <class G, class X, class A = action<G, X>, class S = structure<G>>
 [[nodiscard]] bundle group_action_laws() {
   bundle laws("group_action");
@@ -112,7 +113,7 @@ template <class G, class X, class A = action<G, X>, class S = structure<G>>
   return laws;
 }
 
-/// What follows: each g is a bijection, undone by its inverse.
+/// inverse_undoes. It follows: each g is a bijection of X.
 template <class G, class X, class A = action<G, X>, class S = structure<G>>
 [[nodiscard]] bundle group_action_theorems() {
   bundle laws("group_action_theorems");

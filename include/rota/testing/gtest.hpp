@@ -15,12 +15,15 @@
 
 namespace rota::testing {
 
-/// The laws of the strongest structure that T has and claims. If it is an `allocation_event` or its structure has `signs`,
-/// those of allocation events; if these act on sets, those of apply and of runs; if there is an `is_cycle`, those of Def. 5.
+/// The laws of the strongest structure that T claims. If T is an `allocation_event` or its structure has `signs`, also
+/// those of allocation events; if these act on sets, those of apply and of runs; if there is an `is_cycle`, those of
+/// Def. 5.
 template <class T>
 [[nodiscard]] bundle laws_of() {
   if constexpr (groupoid<T>) {
-    static_assert(!magma<T>, "a structure that composes arrows and combines elements is two: the laws of which?");
+    static_assert(
+        !magma<T>,
+        "a structure either composes arrows or combines elements: this one does both, so its laws are unclear");
     return groupoid_laws<T>();
   } else if constexpr (allocation_event<T> || requires(T const& x) { structure<T>::signs(x); }) {
     auto laws = bundle("allocation_event").merge(structure_laws<T>()).merge(allocation_event_laws<T>());
@@ -57,8 +60,8 @@ private:
 
 }  // namespace detail
 
-/// Makes each law of the bundle a GoogleTest test of its own, called `subject.bundle.law`. To be called before
-/// `RUN_ALL_TESTS`, for example to initialise a variable; true.
+/// Makes each law of the bundle a GoogleTest test of its own, called `subject.bundle.law`. Call it before
+/// `RUN_ALL_TESTS`, for example to initialise a variable. @return true
 inline bool register_laws(std::string const& subject, bundle const& b,
                           std::source_location where = std::source_location::current()) {
   for (law const& l : b.laws()) {
@@ -69,7 +72,7 @@ inline bool register_laws(std::string const& subject, bundle const& b,
   }
   return true;
 }
-/// All laws that T claims, or those of G acting on X, as tests.
+/// The same for all laws that T claims, or those of G acting on X.
 template <class... T>
 bool register_laws(std::string const& subject, std::source_location where = std::source_location::current()) {
   return register_laws(subject, laws_of<T...>(), where);

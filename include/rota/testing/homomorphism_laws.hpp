@@ -6,8 +6,8 @@
 
 namespace rota::testing {
 
-/// preserves_product, preserves_identity and, where there are inverses, preserves_inverse; of a function from the structure
-/// S on T to the structure R on U. Between groups the first implies the others.
+/// preserves_product, preserves_identity and, if there are inverses, preserves_inverse; for a function f from the
+/// structure S on T to the structure R on U. Between groups, the first implies the others.
 template <class T, class U, class S = structure<T>, class R = structure<U>>
 [[nodiscard]] bundle homomorphism_laws(std::function<U(T const&)> f) {
   bundle laws("homomorphism");

@@ -13,14 +13,14 @@
 
 namespace rota::testing {
 
-/// How often the cases of a law must be interesting. A law that holds on boring cases only has not been tested.
+/// How many of the cases of a law must be interesting. A law that was tried on dull cases only has not been tested.
 struct share {
   char const* what;  ///< as given to `interesting`
   int percent = 20;
 };
 
-/// A law as a value: what it is called, what it says, and a property that draws its inputs by name and refutes itself by
-/// `same` or `holds`. The type it speaks of is erased here, once, so that all else is compiled once.
+/// A law as a value: its name, its equation, and a property that draws its inputs by name and fails by `same` or
+/// `holds`. The type that the law is about is erased here, so that everything else is compiled once.
 struct law {
   std::string name;
   std::string equation;
@@ -28,15 +28,14 @@ struct law {
   std::vector<share> reaches;
 };
 
-/// Laws under one name, each law once.
+/// Laws under one name.
 ///
-/// Invariant: no two laws have the same name. A parent's law that is there already, as the tops of a diamond are, comes in
-/// once.
+/// Class invariant: no two laws have the same name. A law that arrives by two parents is there once.
 class bundle {
 public:
   explicit bundle(char const* name) : name_(name) {}
 
-  /// Adds what the parent has and this one has not. @pre laws of one name are one law: their equations are the same
+  /// Adds the laws of the parent that are not here yet. @pre laws of the same name have the same equation
   bundle& merge(bundle const& parent) {
     for (law const& l : parent.laws_) {
       auto const mine =
@@ -46,11 +45,11 @@ public:
     }
     return *this;
   }
-  /// Adds a law. @pre none here is called so
+  /// Adds a law. @pre no law here has this name
   bundle& add(char const* name, char const* equation, void (*property)(), std::initializer_list<share> reaches = {}) {
     return add_closure(name, equation, property, reaches);  // a std::function per law would be half the compile time
   }
-  /// The same for a property that captures something.
+  /// The same for a property with captures.
   bundle& add_closure(char const* name, char const* equation, std::function<void()> property,
                       std::initializer_list<share> reaches = {}) {
     ROTA_ASSERT(!contains(name));
@@ -69,24 +68,24 @@ private:
   std::vector<law> laws_;
 };
 
-/// Draws an input of the law that is being tested, as `rc::Arbitrary<T>` generates it. A counterexample shows it by this
-/// name, shrunk.
+/// Draws an input of the law that is being tested, from `rc::Arbitrary<T>`. A counterexample shows it, shrunk, by this
+/// name.
 template <class T>
 [[nodiscard]] T draw(char const* name) {
   return *rc::gen::arbitrary<T>().as(name);
 }
 
-/// Counts this case as interesting. @pre the law lists it in `reaches`, or nobody looks
+/// Counts this case as interesting if `yes`. @pre the law lists `what` in `reaches`, else it is counted for nobody
 inline void interesting(bool yes, char const* what) {
   if (yes) rc::detail::ImplicitParam<rc::detail::param::CurrentPropertyContext>::value()->addTag(what);
 }
 
-/// Refutes the law that is being tested, by the drawn inputs.
+/// Fails the law that is being tested: the drawn inputs refute it.
 [[noreturn]] inline void refute(std::string why) {
   throw rc::detail::CaseResult(rc::detail::CaseResult::Type::Failure, std::move(why));
 }
 
-/// Demands a condition, said in words.
+/// Fails unless the condition holds; `what` says it in words.
 inline void holds(bool condition, char const* what) {
   if (!condition) refute(std::string("not so: ") + what);
 }
@@ -100,7 +99,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// Demands that two sides of an equation are equal; otherwise shows both.
+/// Fails unless the two sides of an equation are equal, and shows both.
 template <class T>
 void same(char const* left_name, T const& left, char const* right_name, T const& right) {
   if (!(left == right)) detail::refute_equation(left_name, rc::toString(left), right_name, rc::toString(right));

@@ -47,7 +47,7 @@ template <class T, class M = multiples<T>>
            {detail::without_identity});
   return laws;
 }
-/// multiplies: follows, as n d is the n-fold sum of d.
+/// multiplies. It follows, because n d is the n-fold sum of d.
 template <class T, class M = multiples<T>>
 [[nodiscard]] bundle module_theorems() {
   bundle laws("module_theorems");

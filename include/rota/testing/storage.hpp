@@ -25,12 +25,12 @@ concept stored_by = requires(std::map<atom_of<E, S>, int> const& signs, std::set
 
 }  // namespace detail
 
-/// S says how events E act on sets: besides `set_type`,
+/// S says how events E act on sets. Besides `set_type`, it has
 /// * `static E difference(set_type const&, set_type const&)`;
 /// * `static bool applicable(E const&, set_type const&)`;
-/// * `static result<set_type, inapplicable<Atom>> apply(E const&, set_type const&)`, or what reads like it.
+/// * `static result<set_type, inapplicable<Atom>> apply(E const&, set_type const&)`, or a result that is used alike.
 ///
-/// And how both are made and read, Atom being what `signs(e)` maps to −1 and +1; an `allocation_event` needs none of this:
+/// Unless E is an `allocation_event`, S also says how both are made and read, where Atom is the key of `signs(e)`:
 /// * `static E event_with(std::map<Atom, int> const&)`: the event with these signs, as Def. 3 says;
 /// * `static set_type set_with(std::set<Atom> const&)`: the set with these members;
 /// * `static std::set<Atom> members(set_type const&)`.
@@ -43,8 +43,8 @@ concept acts_on_sets =
       S::apply(e, c).error().witness;
     };
 
-/// Events E and sets as S stores them, and as they are drawn: as `event` and `atom_set`, over the atoms that
-/// `sample_atoms<Atom>` says.
+/// Converts between the storage of S and `event` and `atom_set`, in which values are drawn, over the atoms of
+/// `sample_atoms<Atom>`.
 template <class E, class S>
   requires acts_on_sets<E, S>
 struct storage {
@@ -85,7 +85,7 @@ struct storage {
     }
   }
 
-  /// Demands that two sides of an equation are equal; otherwise shows what they are, read.
+  /// Fails unless the two sides of an equation are equal, and shows both as `event` or `atom_set`.
   template <class T>
   static void same(char const* left_name, T const& left, char const* right_name, T const& right) {
     if (!(left == right))

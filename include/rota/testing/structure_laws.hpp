@@ -1,18 +1,18 @@
 #pragma once
 /// @file
-/// The laws of structures with one total operation. `S` is the structure whose laws they are, `structure<T>` unless a
-/// test plugs in another, say a wrong one: so the same T serves for many.
+/// The laws of structures with one total operation. `S` is the structure that is tested: `structure<T>`, unless a test
+/// names another, such as a wrong one. So one type T serves for many structures.
 ///
-/// Bundles called `…_laws` hold axioms, in their usual form: left and right, and the involution of the inverse, are said
-/// although they follow from others where the operation commutes or associates. Those called `…_theorems` hold what
-/// follows, a second look at an implementation; a theorem falls with an axiom.
+/// Bundles called `…_laws` hold axioms in their usual form. Some follow from others if the operation commutes or
+/// associates, as left from right, or the involution of the inverse. Bundles called `…_theorems` hold consequences, as
+/// a second look at an implementation. If a theorem fails, so does an axiom.
 
 #include <rota/algebra/structures.hpp>
 #include <rota/testing/law.hpp>
 
 namespace rota::testing {
 
-/// A class invariant of T, which operations must keep: specialise with `static bool holds(T const&)`, or give
+/// The class invariant of T, which operations must keep. Specialise it with `static bool holds(T const&)`, or give
 /// `structure<T>` a `static bool valid(T const&)`.
 template <class T>
 struct class_invariant;
@@ -33,7 +33,7 @@ void demand_valid(char const* name, T const& x) {
   if (!valid) refute(std::string(name) + " is " + rc::toString(x) + ", which breaks the class invariant");
 }
 
-/// Nothing is tested by cases in which an operand is the identity.
+/// Cases in which an operand is the identity test little.
 constexpr share without_identity{"no operand is the identity", 10};
 template <class S, class... T>
 void count_nontrivial(T const&... operands) {
@@ -44,7 +44,7 @@ void count_nontrivial(T const&... operands) {
 
 }  // namespace detail
 
-/// closed (if T has a class invariant to keep), well_defined.
+/// closed (if T has a class invariant), well_defined.
 template <class T, class S = structure<T>>
 [[nodiscard]] bundle magma_laws() {
   bundle laws("magma");
@@ -65,7 +65,7 @@ template <class T, class S = structure<T>>
       same("y·x", S::combine(y, x), "y·x′", S::combine(y, other));
     };
     demand(T(x));
-    // Equal values that were made differently may be stored differently.
+    // Equal values may be stored differently if they were made differently.
     if (auto const drawn = draw<T>("x′"); drawn == x) demand(drawn);
     if constexpr (requires { S::identity(); })
       if (auto const made = S::combine(x, S::identity()); made == x) demand(made);
@@ -169,7 +169,7 @@ template <class T, class S = structure<T>>
   return bundle("abelian_group").merge(group_laws<T, S>()).merge(commutative_magma_laws<T, S>());
 }
 
-/// What holds in every group: cancellative, only_identity_is_idempotent, inverse_of_product.
+/// cancellative, only_identity_is_idempotent, inverse_of_product. They hold in every group.
 template <class T, class S = structure<T>>
 [[nodiscard]] bundle group_theorems() {
   bundle laws("group_theorems");
@@ -179,7 +179,7 @@ template <class T, class S = structure<T>>
     auto const z = draw<T>("z");
     if (S::combine(x, y) == S::combine(x, z)) same("y", y, "z", z);
     if (S::combine(y, x) == S::combine(z, x)) same("y", y, "z", z);
-    // Two draws seldom agree, hence directly: cancelling brings y back.
+    // Two draws seldom agree, so cancelling is also tested directly.
     same("x⁻¹·(x·y)", S::combine(S::inverse(x), S::combine(x, y)), "y", y);
   });
   laws.add("only_identity_is_idempotent", "x·x = x ⇒ x = 1", [] {
@@ -197,10 +197,10 @@ template <class T, class S = structure<T>>
   return laws;
 }
 
-/// The laws of the strongest structure with one total operation that T has and claims.
+/// The laws of the strongest structure with one total operation that T claims.
 template <class T>
 [[nodiscard]] bundle structure_laws() {
-  static_assert(magma<T>, "specialise rota::structure<T> first: nothing has a structure that nobody gave it");
+  static_assert(magma<T>, "specialise rota::structure<T> first: no type has a structure until then");
   if constexpr (abelian_group<T>) {
     return abelian_group_laws<T>();
   } else if constexpr (group<T>) {

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// The laws of conflict (Def. 2) and its witness (Prop. 1), and those of cycles. The model M names the functions; the
-/// defaults are the library's own.
+/// The laws of conflict (Def. 2) and of its witness (Prop. 1). The model M names the functions. `conflict_model` names
+/// the library's own.
 
 #include <rota/team/conflict.hpp>
 #include <rota/testing/arbitrary.hpp>
@@ -32,7 +32,7 @@ struct conflict_model {
 
 namespace detail {
 
-/// C₁, and C₂ related to it, of one plan type.
+/// C₁ and C₂ of one plan type; C₂ is often close to C₁.
 template <vocabulary V>
 struct allocation_pair {
   allocation<V> c1, c2;
@@ -43,7 +43,7 @@ template <vocabulary V>
   return {{{}, c1}, {{}, *set_beside(c1).as("C₂")}};
 }
 
-/// C₁ ⊈ C₂, atom by atom: Def. 2 within one plan type.
+/// C₁ ⊈ C₂, tested atom by atom: Def. 2 within one plan type.
 template <vocabulary V>
 [[nodiscard]] bool lacks_some(allocation<V> const& c1, allocation<V> const& c2) {
   return std::any_of(c1.atoms.begin(), c1.atoms.end(), [&](in<V> const& x) { return !c2.atoms.contains(x); });
@@ -89,7 +89,7 @@ template <class M>
   });
   return laws;
 }
-/// What follows: irreflexive, directed.
+/// irreflexive, directed. Both follow.
 template <class M>
 [[nodiscard]] bundle conflict_theorems() {
   using V = typename M::vocabulary_type;
@@ -113,8 +113,8 @@ template <class M>
 
 namespace detail {
 
-/// The premise of Prop. 1: beliefs of a₁, a₂ and b about one plan type, and a cause about b. Where b is a₁ or a₂, C_b is
-/// that agent's belief.
+/// The premise of Prop. 1: what a₁, a₂ and b believe about one plan type, and a cause about b. If b is a₁ or a₂, C_b is
+/// what that agent believes.
 template <vocabulary V>
 struct premise {
   allocation<V> c1, c2, cb;
@@ -168,7 +168,7 @@ template <class M>
   });
   return laws;
 }
-/// The corollary: b_is_news_to_the_witness.
+/// b_is_news_to_the_witness, the corollary.
 template <class M>
 [[nodiscard]] bundle proposition_1_theorems() {
   using V = typename M::vocabulary_type;

@@ -12,7 +12,7 @@ namespace rota::testing {
 
 namespace detail {
 
-/// Towards nothing: without the last entry, an entry zero, an entry halved.
+/// Shrinks a vector: drops the last entry, makes an entry zero, or halves one.
 inline rc::Seq<std::vector<int>> smaller_values(std::vector<int> const& v) {
   std::vector<std::vector<int>> smaller;
   if (!v.empty()) smaller.emplace_back(v.begin(), v.end() - 1);
@@ -27,12 +27,12 @@ inline rc::Seq<std::vector<int>> smaller_values(std::vector<int> const& v) {
 
 }  // namespace detail
 
-/// Vectors of numbers in {low, …, high}, from which the generators of sets, events and deltas are made: entry i is about
-/// the i-th atom, 0 says nothing about it. @pre low ≤ 0 ≤ high
+/// Generates vectors of numbers in {low, …, high}. The generators of sets, events and deltas are made of these: entry i
+/// is about the i-th atom, and 0 does not mention it. @pre low ≤ 0 ≤ high
 ///
-/// Never tame: sizes from a fixed list with many small ones, so that random values meet, up to one that leaves inline
-/// storage; and each vector has weights of its own for the numbers, zero weights among them. So values that are dense,
-/// sparse, of one sign, equal, nested and unrelated are all frequent, and nothing waits for a size that grows. Shrinks to
+/// From the first case on, it reaches the interesting ones. The sizes come from a fixed list: many are small, so that
+/// random values share atoms, and one is too large for inline storage. Each vector weighs the numbers differently, some
+/// with 0. So vectors are often dense, sparse or of one sign, and pairs of them equal, nested or unrelated. Shrinks to
 /// fewer entries and to zeros.
 [[nodiscard]] inline rc::Gen<std::vector<int>> values(int low, int high) {
   return [low, high](rc::Random const& random, int) {
@@ -41,10 +41,10 @@ inline rc::Seq<std::vector<int>> smaller_values(std::vector<int> const& v) {
     static constexpr std::uint64_t weights_of_zero[] = {0, 0, 1, 2};
     auto source = random;
     auto const kinds = static_cast<std::size_t>(high - low + 1);
-    std::vector<std::uint64_t> up_to(kinds);  // the weights, summed
+    std::vector<std::uint64_t> up_to(kinds);  // the partial sums of the weights
     std::uint64_t total = 0;
     for (std::size_t k = 0; k < kinds; ++k) {
-      auto const which = source.next() % 4;  // by itself: as an index, g++ 12 under UBSan draws it twice
+      auto const which = source.next() % 4;  // a variable, because g++ 12 with UBSan draws twice if it is an index
       total += low + static_cast<int>(k) == 0 ? weights_of_zero[which] : weights[which];
       up_to[k] = total;
     }
@@ -62,13 +62,15 @@ inline rc::Seq<std::vector<int>> smaller_values(std::vector<int> const& v) {
   };
 }
 
-/// What `make` makes of `values(low, high)`. Shrinks with them.
+/// `make(v)` for v of `values(low, high)`. Shrinks as v does.
 template <class T>
 [[nodiscard]] rc::Gen<T> made_of(int low, int high, std::function<T(std::vector<int> const&)> make) {
-  return rc::gen::map(values(low, high), std::move(make));  // erased: rapidcheck costs half a second per mapping type
+  return rc::gen::map(
+      values(low, high),
+      std::move(make));  // a std::function, because each type that is mapped by costs half a second to compile
 }
 
-/// Uniform in {low, …, high} from the first case on, and shrinking towards zero. @pre low ≤ high
+/// Uniform in {low, …, high} from the first case on. Shrinks towards zero. @pre low ≤ high
 [[nodiscard]] inline rc::Gen<int> integer(int low, int high) {
   return [low, high](rc::Random const& random, int) {
     auto source = random;

@@ -12,26 +12,26 @@
 
 namespace rota::alica {
 
-/// What a plan file does not say, and a plan needs: a factory of utilities, one per plan.
+/// Makes the utility of each plan, which plan files do not contain.
 template <class F, class Beliefs>
 concept utility_factory = requires(F const& f, plan const& p) {
   { f(p) } -> std::convertible_to<rota::utility<runtime_vocabulary, Beliefs>>;
 };
 
-/// The name that a task has within a plan: its id; where several entry points share the task, the entry point's id, as
+/// The id of a task within a plan: the task's own or, if several entry points share the task, the entry point's, because
 /// ALICA allocates entry points. Both are unique within a root.
 [[nodiscard]] inline runtime_vocabulary::task task_key(plan const& p, entry_point const& e) {
   return {shares_task(p, e) ? e.id : e.task};
 }
 
-/// Refusal: why a plan of a file makes no plan of the library, in words that name it.
+/// Refusal: why a plan of a file cannot become a plan of the library.
 struct conversion_defect {
   identity plan = 0;
   std::string reason;
 };
 
-/// The plan, with its cardinalities, entry states, team size and hysteresis. Its precondition is the caller's: the files
-/// hold only text, or nothing at all. O(t²).
+/// The plan, with its cardinalities, entry states, team size and hysteresis. The caller gives the precondition, because files
+/// hold it as text, or not at all. O(t²).
 template <class Beliefs = no_beliefs, utility_factory<Beliefs> F>
 [[nodiscard]] result<rota::plan<runtime_vocabulary, Beliefs>, conversion_defect>
 to_plan(plan const& p, F const& make_utility, precondition<runtime_vocabulary, Beliefs> holds = {}) {
@@ -60,7 +60,7 @@ to_plan(plan const& p, F const& make_utility, precondition<runtime_vocabulary, B
   return refused{conversion_defect{p.id, reason}};
 }
 
-/// The activated plans of a type.
+/// The plan type, with its activated plans.
 template <class Beliefs = no_beliefs, utility_factory<Beliefs> F>
 [[nodiscard]] result<rota::plan_type<runtime_vocabulary, Beliefs>, conversion_defect>
 to_plan_type(model const& m, plan_type const& t, F const& make_utility) {
@@ -78,7 +78,7 @@ to_plan_type(model const& m, plan_type const& t, F const& make_utility) {
   return *std::move(made);
 }
 
-/// The plan type that offers one plan only; it bears the plan's id.
+/// A plan type of this one plan, with the plan's id.
 template <class Beliefs = no_beliefs, utility_factory<Beliefs> F>
 [[nodiscard]] result<rota::plan_type<runtime_vocabulary, Beliefs>, conversion_defect>
 to_plan_type(plan const& p, F const& make_utility) {
@@ -89,7 +89,7 @@ to_plan_type(plan const& p, F const& make_utility) {
   return *rota::plan_type<runtime_vocabulary, Beliefs>::make({p.id}, std::move(plans));
 }
 
-/// The role, over the names that `task_key` gives to the tasks of the plans of its root.
+/// The role. It names tasks as `task_key` does, for the plans of its root.
 [[nodiscard]] inline rota::role<runtime_vocabulary> to_role(model const& m, role const& r) {
   rota::role<runtime_vocabulary> out{r.default_priority};
   for (task_priority const& t : r.priorities) {

@@ -11,7 +11,7 @@
 
 namespace rota::alica {
 
-/// Bounds on what is read; every one of them ends in an error, never in a crash.
+/// Limits of what `load` reads. Beyond a limit there is an error, never a crash.
 struct load_options {
   std::size_t max_bytes = std::size_t{64} << 20U;  ///< of one file
   std::size_t max_depth = 64;                      ///< of nested objects or elements
@@ -24,7 +24,7 @@ struct load_options {
 
 namespace rota::alica::detail {
 
-/// What an object with an id is, as far as allocation cares.
+/// The kinds of objects with ids that allocation needs to tell apart.
 enum class sort : unsigned char { other, plan, plan_type, entry_point, state, task, role };
 
 [[nodiscard]] constexpr std::string_view to_string(sort s) noexcept {
@@ -36,7 +36,7 @@ enum class sort : unsigned char { other, plan, plan_type, entry_point, state, ta
   return k == file_kind::plan ? sort::plan : k == file_kind::plan_type ? sort::plan_type : sort::other;
 }
 
-/// What the objects in a list of this name are; both formats use the same names.
+/// The kind of the objects in a list of this name. Both formats use the same names.
 [[nodiscard]] constexpr sort sort_of_list(std::string_view name) noexcept {
   return name == "entryPoints" ? sort::entry_point
          : name == "states"    ? sort::state
@@ -53,7 +53,7 @@ struct declaration {
   std::string place;
 };
 
-/// A reference, by whom, and where it stands.
+/// A reference, the object that makes it, and its place in the file.
 struct link {
   reference to;
   sort wanted = sort::other;
@@ -63,7 +63,7 @@ struct link {
 
 /// One file as it was read, before its references are resolved.
 ///
-/// `needed` must resolve or the file is refused; `loose` should.
+/// The file is refused if a `needed` reference does not resolve; for a `loose` one there is a warning.
 struct draft {
   file_kind kind = file_kind::none;
   file_format format = file_format::none;
@@ -92,7 +92,7 @@ private:
   bool refused_ = false;
 };
 
-/// A field of an object: absent (both empty), there, or of the wrong type (`wrong` completes "KEY is …").
+/// A field of an object: absent (both members empty), present, or of the wrong type (`wrong` completes "KEY is …").
 template <class T>
 struct field {
   std::optional<T> value;

@@ -17,15 +17,15 @@ namespace rota::alica::detail {
 
 namespace fs = std::filesystem;
 
-/// A file that was met, and where it really is; or why it will not be read.
+/// A file that was found, with its real path; or why it is not read.
 struct found_file {
-  std::string shown;  ///< as the user reaches it
+  std::string shown;  ///< the path that the user gave, or that follows from it
   fs::path canonical;
   std::string problem;  ///< empty: a regular file
   alica::severity severity = alica::severity::error;
 };
 
-/// Classifies one path. @return nothing for a folder that is to be entered
+/// Looks at one path. @return nothing for a folder that is to be entered
 [[nodiscard]] inline std::optional<found_file> look_at(fs::path const& p, bool given) {
   bool const plan_name = kind_of(p.filename().string()) != file_kind::none;
   auto const grave = plan_name || given ? severity::error : severity::ignored;
@@ -79,7 +79,7 @@ struct found_file {
   return out;
 }
 
-/// The bytes of a file, or why not.
+/// The bytes of a file, or why they cannot be read.
 [[nodiscard]] inline std::variant<std::string, diagnostic> read_bytes(fs::path const& p, std::size_t max_bytes) {
   auto const refuse = [](std::string why) { return diagnostic{severity::error, {}, {}, {}, std::move(why)}; };
   std::error_code error;
@@ -92,7 +92,7 @@ struct found_file {
   char block[1 << 14];
   while (in.read(block, sizeof block), in.gcount() > 0) {
     bytes.append(block, static_cast<std::size_t>(in.gcount()));
-    if (bytes.size() > max_bytes) return refuse(too_large);  // it grew, or lied
+    if (bytes.size() > max_bytes) return refuse(too_large);  // it grew meanwhile, or its size was wrong
   }
   if (in.bad()) return refuse("cannot be read");
   return bytes;

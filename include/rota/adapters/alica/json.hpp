@@ -11,9 +11,9 @@
 
 namespace rota::alica::detail {
 
-/// Looks at a JSON text before anything is built from it: syntax, depth, size, repeated keys.
+/// Checks a JSON text before anything is built from it: syntax, depth, size, repeated keys.
 ///
-/// Stops at the first thing wrong and says where. nlohmann's parser keeps its own stack, so depth costs it no recursion.
+/// Stops at the first defect and says where it is. nlohmann's parser keeps its own stack, so deep texts do not overflow it.
 class json_guard {
 public:
   using number_integer_t = nlohmann::json::number_integer_t;
@@ -73,7 +73,7 @@ private:
     open_.pop_back();
     return true;
   }
-  /// Where the parser is, as a JSON pointer; not longer than a line.
+  /// The position of the parser as a JSON pointer, cut to a line.
   std::string pointer() const {
     std::string out;
     for (level const& l : open_) {
@@ -97,7 +97,7 @@ private:
   std::size_t elements_ = 0;
 };
 
-/// One object of a JSON plan file, and where it stands. `null` counts as absent.
+/// One object of a JSON plan file, and its place in the file. `null` counts as absent.
 class json_cursor {
 public:
   static constexpr file_format format = file_format::json;
@@ -196,7 +196,7 @@ private:
     if (v.is_number_unsigned()) return reference{{}, v.get<identity>()};
     return std::nullopt;
   }
-  /// Keys whose bare numbers refer into the same file.
+  /// The keys whose bare numbers are references into the same file.
   static bool is_inner_reference(std::string_view key) {
     return key == "state" || key == "inState" || key == "outState" || key == "entryPoint" || key == "inTransitions" ||
            key == "outTransitions";

@@ -13,15 +13,15 @@
 
 namespace rota::alica {
 
-/// What plan files name things by: unique within one root, not across roots.
+/// The ids of plan files. Each is unique within one root, but not across roots.
 using identity = std::uint64_t;
 
-/// How grave a diagnostic is. A file with an error is refused whole; `ignored` names a file that was not read.
+/// How severe a diagnostic is. A file with an error is refused whole. `ignored` is about a file that was not read.
 enum class severity : unsigned char { error, warning, ignored };
 
-/// What a file describes, told by its extension.
+/// The kind of a file, by its extension.
 enum class file_kind : unsigned char {
-  none,              ///< no plan file
+  none,              ///< not a plan file
   plan,              ///< .pml
   plan_type,         ///< .pty
   task_repository,   ///< .tsk
@@ -33,7 +33,7 @@ enum class file_kind : unsigned char {
 
 enum class file_format : unsigned char { none, json, xml };
 
-/// What became of a file. `listed`: sound, and nothing in it concerns allocation.
+/// What `load` did with a file. `listed`: it has no error, and nothing in it concerns allocation.
 enum class file_status : unsigned char { loaded, listed, refused, ignored };
 
 [[nodiscard]] constexpr std::string_view to_string(severity s) noexcept {
@@ -54,18 +54,18 @@ enum class file_status : unsigned char { loaded, listed, refused, ignored };
   return names[static_cast<std::size_t>(s)];
 }
 
-/// One thing to say about one place of one file.
+/// A message about one place of one file.
 struct diagnostic {
   alica::severity severity = alica::severity::error;
   std::string file;
   std::string place;           ///< JSON pointer, or line:column with the XML element; empty for the file as a whole
-  std::optional<identity> id;  ///< of the object concerned, where it has one
+  std::optional<identity> id;  ///< of the object that it is about, if that has one
   std::string reason;
 
   friend bool operator==(diagnostic const&, diagnostic const&) = default;
 };
 
-/// One file that was met, whatever became of it.
+/// One file that was found.
 struct document {
   std::string file;
   std::size_t root = 0;  ///< index into `model::roots`
@@ -74,19 +74,19 @@ struct document {
   file_status status = file_status::ignored;
   std::optional<identity> id;
   std::string name;
-  bool followed = false;  ///< not among the given paths: a needed reference led to it
+  bool followed = false;  ///< not among the given paths; a plan needed it
 
   friend bool operator==(document const&, document const&) = default;
 };
 
-/// One task of a plan, in the place it has there. A plan may list one task at several entry points.
+/// An entry point of a plan: one task with its bounds. Several entry points of a plan may have the same task.
 struct entry_point {
   identity id = 0;
   std::string name;
   identity task = 0;
   std::string task_name;
   cardinality bounds;
-  identity state = 0;  ///< the state in which an agent begins; 0 if the file names none that exists
+  identity state = 0;  ///< the state in which an agent begins; 0 if the file names no existing one
   std::string state_name;
 
   friend bool operator==(entry_point const&, entry_point const&) = default;
@@ -100,13 +100,13 @@ struct plan {
   std::vector<entry_point> entry_points;  ///< ascending by id, at least one
   cardinality team_size;                  ///< of the plan as a whole: min/maxCardinality of the plan itself
   double utility_threshold = 0;           ///< the default hysteresis
-  /// The precondition's text, if the plan has an enabled one. Empty text: ALICA holds it in code. Never evaluated here.
+  /// The text of the precondition, if the plan has an enabled one. Empty: ALICA has it in code. It is never evaluated here.
   std::optional<std::string> precondition;
 
   friend bool operator==(plan const&, plan const&) = default;
 };
 
-/// A plan offered by a plan type. One that is not activated is no choice.
+/// A plan that a plan type offers. Only activated ones can be chosen.
 struct plan_choice {
   identity plan = 0;
   bool activated = true;
@@ -140,7 +140,7 @@ struct task_priority {
   friend bool operator==(task_priority const&, task_priority const&) = default;
 };
 
-/// A role: tasks and their priorities, negative forbids. Tasks not listed have the default of the role's set.
+/// A role: tasks and their priorities. A negative priority forbids. Other tasks have the default priority of the role set.
 struct role {
   identity id = 0;
   std::string name;
@@ -152,10 +152,10 @@ struct role {
   friend bool operator==(role const&, role const&) = default;
 };
 
-/// Everything that plan files say about allocation, and everything that is wrong with them. A value.
+/// Everything in plan files that concerns allocation, and everything that is wrong with them.
 ///
-/// Class invariant: every part is sorted, by root, then id (documents and diagnostics by file), so that nothing depends
-/// on the order in which folders list their files; whatever an element refers to by need is present.
+/// Class invariant: every list is sorted by root and id (documents and diagnostics by file), so that nothing depends on the
+/// order in which folders list their files. Everything that an element needs is present.
 struct model {
   std::vector<std::string> roots;  ///< folders within which ids are unique
   std::vector<document> documents;
@@ -165,7 +165,7 @@ struct model {
   std::vector<role> roles;
   std::vector<diagnostic> diagnostics;
 
-  /// How many diagnostics are of this severity. O(n).
+  /// The number of diagnostics of this severity. O(n).
   [[nodiscard]] std::size_t count(severity s) const {
     return static_cast<std::size_t>(
         std::count_if(diagnostics.begin(), diagnostics.end(), [s](diagnostic const& d) { return d.severity == s; }));
@@ -191,15 +191,15 @@ private:
                        [&](entry_point const& x) { return x.task == e.task; }) > 1;
 }
 
-/// What people call an entry point within its plan, unique there: the task's name; where several entry points have a
-/// task of that name, the entry point's own name; where that is no better, "TASK#ID". O(t²).
+/// A name for an entry point that is unique within its plan: the name of its task; if several entry points have a task of that
+/// name, the entry point's own name; if that is not unique either, "TASK#ID". O(t²).
 [[nodiscard]] inline std::string label(plan const& p, entry_point const& e) {
   auto const& all = p.entry_points;
   auto const tasks_named = [&](std::string const& n) {
     return std::count_if(all.begin(), all.end(), [&](entry_point const& x) { return x.task_name == n; });
   };
   if (!e.task_name.empty() && tasks_named(e.task_name) == 1) return e.task_name;
-  bool const named = !e.name.empty() && e.name != "MISSING_NAME";  // what ALICA's editor writes for no name
+  bool const named = !e.name.empty() && e.name != "MISSING_NAME";  // ALICA's editor writes this where there is no name
   auto const own = std::count_if(all.begin(), all.end(), [&](entry_point const& x) { return x.name == e.name; });
   bool const taken = e.name != e.task_name && tasks_named(e.name) > 0;
   if (named && own == 1 && !taken) return e.name;

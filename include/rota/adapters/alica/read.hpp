@@ -13,7 +13,7 @@
 
 namespace rota::alica::detail {
 
-/// Reads what allocation needs out of one file, the same way for both formats. One defect, one error.
+/// Reads from one file what allocation needs, the same way for both formats. Each defect gives one error.
 template <class Cursor>
 class content_reader {
 public:
@@ -38,7 +38,7 @@ public:
   }
 
 private:
-  /// The value of a field; one of a wrong type is a defect.
+  /// The value of a field. A value of the wrong type is a defect.
   template <class T>
   std::optional<T> take(field<T> f, Cursor const& at, std::string_view key, std::optional<identity> of) {
     if (!f.wrong.empty()) out_.defect(at.place(key), of, std::string(key) + " is " + f.wrong);
@@ -54,7 +54,7 @@ private:
     return list ? *std::move(list) : std::vector<Cursor>{};
   }
 
-  /// minCardinality and maxCardinality; absent ones bound nothing.
+  /// minCardinality and maxCardinality. An absent one sets no bound.
   cardinality read_bounds(Cursor const& at, identity of, bool expected) {
     constexpr identity unlimited = 2147483647;
     auto const bound = [&](std::string_view key, identity otherwise) {
@@ -87,7 +87,7 @@ private:
     p.name = out_.name;
     p.team_size = read_bounds(top, id, false);
     auto threshold = top.real("utilityThreshold");
-    if (threshold.value && !(*threshold.value >= 0 && rota::detail::is_finite(*threshold.value)))
+    if (threshold.value && !(rota::detail::is_finite(*threshold.value) && *threshold.value >= 0))
       threshold = {{}, "negative or no finite number"};
     p.utility_threshold = take(std::move(threshold), top, "utilityThreshold", id).value_or(0);
     if (auto const pre = take(top.precondition(), top, "preCondition", id)) {
@@ -121,7 +121,7 @@ private:
       e.task = to->id;
       out_.needed.push_back({*to, sort::task, id, at.place("task")});
     }
-    // States are not needed to allocate: one that is missing is warned of with the other loose references.
+    // Allocation needs no states: a missing one gives a warning, like other loose references.
     if (auto const state = at.refers("state").value)
       if (auto const known = states.find(state->id); known != states.end()) {
         e.state = known->first;
@@ -152,7 +152,7 @@ private:
       if (!to) continue;
       if (!offered.insert(to->id).second) out_.defect(c.place(), to->id, "the plan type offers this plan twice");
       t.plans.push_back({to->id, activated});
-      // A plan that is switched off is no choice: nothing needs it.
+      // A plan that is switched off cannot be chosen, so it is not needed.
       (activated ? out_.needed : out_.loose).push_back({*to, sort::plan, id, c.place("plan")});
     }
     auto const any = std::any_of(t.plans.begin(), t.plans.end(), [](auto const& c) { return c.activated; });
@@ -227,7 +227,7 @@ private:
   load_options const& limits_;
 };
 
-/// What the root element of an XML file of this kind is called.
+/// The name of the root element of an XML file of this kind.
 [[nodiscard]] constexpr std::string_view root_element(file_kind k) noexcept {
   switch (k) {
   case file_kind::plan: return "Plan";
@@ -287,7 +287,7 @@ inline void read_xml(draft& out, std::string_view text, load_options const& limi
   content_reader<xml_cursor>{out, limits}.read(xml_cursor{top, lines});
 }
 
-/// One file, from its bytes. Never fails otherwise than by diagnostics; ids repeated within the file are one of them.
+/// Reads one file from its bytes. Every defect becomes a diagnostic, including ids that are repeated within the file.
 [[nodiscard]] inline draft read_document(std::string_view bytes, file_kind kind, load_options const& limits = {}) {
   draft out;
   out.kind = kind;

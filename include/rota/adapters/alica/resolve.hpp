@@ -14,19 +14,19 @@
 
 namespace rota::alica::detail {
 
-/// One file on its way into the model.
+/// One file while the model is built.
 struct entry {
   std::string shown;
   fs::path canonical;
   fs::path root;           ///< ids are unique within it
-  bool below_etc = false;  ///< the root is a folder `etc`, which may be searched; else only what was given is known
+  bool below_etc = false;  ///< the root is a folder `etc`; only such roots are searched
   bool followed = false;
   draft content;
 };
 
-/// Everything declared, by root and id, and by file; resolves references.
+/// Finds declarations by root and id, and by file, and so resolves references.
 ///
-/// Views the entries; indices stay valid as long as none is removed.
+/// A view of the entries. Its indices stay valid while no entry is removed.
 class directory {
 public:
   explicit directory(std::vector<entry>& entries, load_options const& limits) : entries_(entries), limits_(limits) {
@@ -38,13 +38,13 @@ public:
     declaration const* object = nullptr;
   };
 
-  /// Takes up the entry at this index.
+  /// Adds the entry at this index.
   void note(std::size_t i) {
     by_path_.emplace(entries_[i].canonical, i);
     auto& ids = by_id_[entries_[i].root];
     auto const& declared = entries_[i].content.declared;
     for (std::size_t k = 0; k < declared.size(); ++k) {
-      auto& places = ids[declared[k].id];  // a repetition within the file would answer no reference differently
+      auto& places = ids[declared[k].id];  // a repetition within the file does not change what a reference means
       bool const repeated = std::any_of(places.begin(), places.end(), [&](auto const& p) {
         return p.first == i && declared[p.second].what == declared[k].what;
       });
@@ -52,11 +52,11 @@ public:
     }
   }
 
-  /// What a reference in a file means: the id in the named file, else in a file of that name elsewhere in the root, as
-  /// ALICA's JSON names files without their folders; bare ids only within the file itself, unless they are `needed` (the
-  /// older role sets name tasks so). A file of another name never answers.
+  /// The object that a reference in a file means. It is looked for in the named file, then in other files of that name within
+  /// the root, because ALICA's JSON names files without their folders. A bare id means an object of the same file; if it is
+  /// `needed`, of any file of the root (older role sets name tasks so).
   ///
-  /// Among several declarations one of the wanted sort in a sound file is preferred.
+  /// Of several declarations it prefers one of the wanted sort in a file without errors.
   [[nodiscard]] std::optional<target> resolve(std::size_t from, link const& l, bool needed) {
     std::vector<target> found;
     auto const add = [&](fs::path const& root, auto const& admits) {
@@ -85,22 +85,22 @@ public:
 
   [[nodiscard]] std::vector<link> const& needs(std::size_t file) const { return entries_[file].content.needed; }
 
-  /// Where a reference's file would lie, followed literally.
+  /// The path of a reference's file, taken literally.
   [[nodiscard]] fs::path path_of(std::size_t from, link const& l) const {
     auto const base = entries_[from].canonical.parent_path();
     return (base / l.to.file).lexically_normal();
   }
   [[nodiscard]] bool is_loaded(fs::path const& canonical) const { return by_path_.contains(canonical); }
 
-  /// The file that a reference names literally, if it is on disk.
+  /// The file at the literal path of a reference, if it is on disk.
   [[nodiscard]] std::optional<fs::path> literal(std::size_t from, link const& l) const {
     if (l.to.file.empty() || fs::path(l.to.file).is_absolute()) return std::nullopt;
     auto const file = look_at(path_of(from, l), true);
     if (!file || !file->problem.empty()) return std::nullopt;
     return file->canonical;
   }
-  /// The files that a reference may mean, on disk: the literal one, then files of that name within the root, if that is
-  /// a folder `etc`: other folders may hold anything, and are not searched.
+  /// The files on disk that a reference may mean: the literal one, then files of that name within the root, if that is a
+  /// folder `etc`. Other folders may hold anything, so they are not searched.
   [[nodiscard]] std::vector<fs::path> candidates(std::size_t from, link const& l) {
     std::vector<fs::path> out;
     if (l.to.file.empty() || fs::path(l.to.file).is_absolute()) return out;
@@ -112,7 +112,7 @@ public:
     return out;
   }
 
-  /// Says why a reference leads to nothing.
+  /// Says why a reference does not resolve.
   [[nodiscard]] std::string why_missing(std::size_t from, link const& l) {
     std::string why = "not found";
     if (l.to.file.empty()) return why;
@@ -132,7 +132,7 @@ private:
   /// The plan files below a root, by name.
   struct listing {
     std::map<std::string, std::vector<fs::path>> files;
-    std::string cut_short;  ///< why it is incomplete
+    std::string cut_short;  ///< why the list is incomplete
   };
 
   listing const& below(fs::path const& root) {
@@ -165,8 +165,8 @@ private:
   std::map<fs::path, fs::path> real_;
 };
 
-/// Ids that stand twice in one root: an error in the later file (in order of names) where allocation cares, else a
-/// warning. Refused files take no ids away from others.
+/// Reports ids that two files of one root declare: an error in the later file, by name, if allocation needs the object, else a
+/// warning. Refused files do not count.
 inline void check_repeated_ids(std::vector<entry>& entries) {
   std::map<std::pair<fs::path, identity>, std::pair<std::size_t, declaration const*>> first;
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -186,16 +186,16 @@ inline void check_repeated_ids(std::vector<entry>& entries) {
   }
 }
 
-/// References that do not resolve: an error where allocation needs them, a warning elsewhere.
+/// Reports references that do not resolve: an error if allocation needs them, else a warning.
 inline void check_references(std::vector<entry>& entries, directory& all) {
-  auto const order = [](file_kind k) {  // what is needed first; needs never form a circle
+  auto const order = [](file_kind k) {  // files that others need come first; there are no cycles
     return k == file_kind::plan_type ? 2 : k == file_kind::plan || k == file_kind::role_set ? 1 : 0;
   };
   for (int pass = 0; pass < 3; ++pass) {
     for (std::size_t i = 0; i < entries.size(); ++i) {
       auto& draft = entries[i].content;
       if (order(draft.kind) != pass || draft.refused()) continue;
-      std::set<std::pair<std::string, identity>> said;  // one missing task is one defect, however often it is needed
+      std::set<std::pair<std::string, identity>> said;  // a missing task is reported once
       for (link const& l : draft.needed) {
         auto const found = all.resolve(i, l, true);
         std::string why;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <rota/adapters/alica/model.hpp>
-#include <rota/model/detail/finite.hpp>
+#include <rota/core/finite.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -18,7 +18,7 @@
 
 namespace rota::alica::detail {
 
-/// The offset of the first byte that is no UTF-8 (overlong forms, surrogates, NUL included), or nothing. O(n).
+/// The offset of the first byte that is not valid UTF-8, if any. Overlong forms, surrogates and NUL are not valid. O(n).
 [[nodiscard]] inline std::optional<std::size_t> first_bad_byte(std::string_view s) {
   std::size_t i = 0;
   auto const byte = [&](std::size_t k) { return k < s.size() ? static_cast<unsigned char>(s[k]) : 0U; };
@@ -41,7 +41,7 @@ namespace rota::alica::detail {
   return std::nullopt;
 }
 
-/// Finds lines and columns in a text; views it.
+/// Finds lines and columns in a text. A view of the text.
 class line_index {
 public:
   /// O(n).
@@ -49,7 +49,7 @@ public:
     for (std::size_t i = 0; i < text.size(); ++i)
       if (text[i] == '\n') newlines_.push_back(i);
   }
-  /// "LINE:COLUMN" of an offset, both from 1, columns in bytes. O(log n).
+  /// "LINE:COLUMN" of an offset. Both count from 1, columns in bytes. O(log n).
   [[nodiscard]] std::string place(std::size_t offset) const {
     offset = (std::min)(offset, size_);
     auto const after = std::lower_bound(newlines_.begin(), newlines_.end(), offset);
@@ -62,7 +62,7 @@ private:
   std::vector<std::size_t> newlines_;
 };
 
-/// A whole number ≥ 0, nothing before or after it.
+/// The text as a whole number ≥ 0, or nothing if it is anything else.
 [[nodiscard]] inline std::optional<identity> parse_natural(std::string_view s) {
   identity n = 0;
   auto const [end, error] = std::from_chars(s.data(), s.data() + s.size(), n);
@@ -70,7 +70,7 @@ private:
   return n;
 }
 
-/// A finite number, nothing before or after it.
+/// The text as a finite number, or nothing if it is anything else.
 [[nodiscard]] inline std::optional<double> parse_real(std::string_view s) {
   double x = 0;
 #ifdef __cpp_lib_to_chars
@@ -87,7 +87,7 @@ private:
   return x;
 }
 
-/// "File.ext#id", the file relative to the referring one; or a bare id, `file` empty.
+/// "File.ext#id", with the file relative to the referring one; or a bare id, with `file` empty.
 struct reference {
   std::string file;
   identity id = 0;
@@ -95,7 +95,7 @@ struct reference {
   [[nodiscard]] std::string text() const { return file + '#' + std::to_string(id); }
 };
 
-/// "File.ext#id", "#id" or "id". Refused: no number, and control characters in the file name.
+/// Reads "File.ext#id", "#id" or "id". Nothing if the id is not a number, or the file name has control characters.
 [[nodiscard]] inline std::optional<reference> parse_reference(std::string_view s) {
   auto const hash = s.rfind('#');
   auto const id = parse_natural(hash == std::string_view::npos ? s : s.substr(hash + 1));
@@ -114,7 +114,7 @@ struct reference {
   return dot == std::string_view::npos ? std::string_view{} : name.substr(dot);
 }
 
-/// What a file of this name describes.
+/// The kind of a file of this name.
 [[nodiscard]] inline file_kind kind_of(std::string_view file) {
   auto const extension = extension_of(file);
   if (extension == ".pml") return file_kind::plan;
@@ -127,7 +127,7 @@ struct reference {
   return file_kind::none;
 }
 
-/// Why a file of this name, which is no plan file, is not read.
+/// Why a file of this name, which is not a plan file, is not read.
 [[nodiscard]] inline std::string_view why_ignored(std::string_view file) {
   auto const extension = extension_of(file);
   if (extension == ".pmlex") return "no plan file: layout of ALICA's editor";
@@ -136,7 +136,7 @@ struct reference {
   return "no plan file: its extension is none of theirs";
 }
 
-/// The name in quotes, cut to a length that fits a line.
+/// The name in quotes, cut to fit a line.
 [[nodiscard]] inline std::string in_quotes(std::string_view s) {
   constexpr std::size_t limit = 60;
   std::string out = "\"";

@@ -12,7 +12,7 @@
 
 namespace rota::alica::detail {
 
-/// What the raw text of an XML file must not hold: the place and the reason of the first offence.
+/// The first thing in the raw text of an XML file that is refused: its place and the reason.
 struct xml_offence {
   std::size_t offset = 0;
   std::string reason;
@@ -20,7 +20,7 @@ struct xml_offence {
 
 /// Refuses references to entities that XML itself does not define, and too many elements and attributes. O(n).
 ///
-/// pugixml expands no entities but leaves unknown ones standing; a name that silently reads "&x;" is a wrong name.
+/// pugixml leaves unknown entities as they are, and a name that silently reads "&x;" would be wrong.
 [[nodiscard]] inline std::optional<xml_offence> find_offence(std::string_view s, load_options const& limits) {
   auto const skip = [&](std::size_t at, std::string_view open, std::string_view close) {
     if (s.compare(at, open.size(), open) != 0) return at;
@@ -60,7 +60,7 @@ struct xml_offence {
   return colon == std::string_view::npos ? qualified : qualified.substr(colon + 1);
 }
 
-/// One element of an XML plan file, and where it stands.
+/// One element of an XML plan file, and its place in the file.
 class xml_cursor {
 public:
   static constexpr file_format format = file_format::xml;
@@ -168,7 +168,7 @@ private:
   line_index const* lines_;
 };
 
-/// The first node nested deeper than the limit, if any. Iterative. O(n).
+/// The first node nested deeper than the limit, if any. Without recursion. O(n).
 [[nodiscard]] inline pugi::xml_node too_deep(pugi::xml_node top, std::size_t limit) {
   std::size_t depth = 1;
   for (auto n = top.first_child(); n;) {

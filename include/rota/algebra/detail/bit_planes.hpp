@@ -60,9 +60,9 @@ template <std::size_t Planes, class F>
   }
 }
 
-// Where the compiler must not assume them, registers of 256 bits are asked for at run time; worth it from 1024 atoms
-// on. `out` is fresh, so nothing that is read there.
-#if defined(__GNUC__) && defined(__x86_64__) && !defined(__AVX2__)
+// Registers of 256 bits are asked for at run time, whatever the unit is compiled for: the linker may keep this function for
+// units that were compiled for less. Worth it from 1024 atoms on. `out` never aliases the inputs.
+#if defined(__GNUC__) && defined(__x86_64__)
 inline bool has_wide_registers() noexcept { return __builtin_cpu_supports("avx2") != 0; }
 template <std::size_t Planes, class F>
 [[gnu::target("avx2")]] void write_planes_widely(word* __restrict out, std::size_t n, F& words_at) {
@@ -71,7 +71,7 @@ template <std::size_t Planes, class F>
 #else
 inline bool has_wide_registers() noexcept { return false; }
 template <std::size_t Planes, class F>
-void write_planes_widely(word* out, std::size_t n, F& words_at) {  // right, should a linker take it for the other
+void write_planes_widely(word* out, std::size_t n, F& words_at) {
   write_planes<Planes>(out, n, words_at);
 }
 #endif

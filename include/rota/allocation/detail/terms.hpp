@@ -1,9 +1,9 @@
 #pragma once
 
-#include <rota/allocation/detail/guarded.hpp>
 #include <rota/allocation/fixed_point.hpp>
+#include <rota/allocation/guarded.hpp>
 #include <rota/allocation/problem.hpp>
-#include <rota/model/detail/parts.hpp>
+#include <rota/model/parts.hpp>
 
 #include <algorithm>
 #include <concepts>
@@ -12,8 +12,9 @@
 namespace rota::detail {
 
 /// weight·value in fixed point, or why it cannot be counted.
-[[nodiscard]] constexpr result<fixed_utility, utility_fault> weigh(double weight, double value) noexcept {
-  return quantise(is_finite(value) ? weight * value : value);
+[[nodiscard]] constexpr result<fixed_utility, utility_fault> weigh(double weight, double const& value) noexcept {
+  if (!is_finite(value)) return quantise(value);
+  return quantise(weight * value);
 }
 
 /// total ← total + term; or why it cannot be added, and `total` stays as it is.

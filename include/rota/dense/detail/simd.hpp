@@ -59,10 +59,13 @@ namespace rota::dense::detail::simd {
 template <class T, std::size_t Count>
 struct lanes {
   typedef T vector __attribute__((vector_size(Count * sizeof(T))));
-  typedef T memory __attribute__((vector_size(Count * sizeof(T)), may_alias, aligned(alignof(T))));
+  // A struct, since clang before 17 forgets the alignment of a vector type that depends on template parameters.
+  struct [[gnu::packed, gnu::may_alias]] memory {
+    vector v;
+  };
 };
 
-/// The `Count` numbers from p on, to be read or written as one vector.
+/// The `Count` numbers from p on: `lanes_at<4>(p).v` is read or written as one vector.
 template <std::size_t Count, class T>
 ROTA_SIMD_INLINE typename lanes<T, Count>::memory const& lanes_at(T const* p) noexcept {
   return *reinterpret_cast<typename lanes<T, Count>::memory const*>(p);

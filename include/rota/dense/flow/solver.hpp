@@ -1,7 +1,7 @@
 #pragma once
 
 #include <rota/core/config.hpp>
-#include <rota/dense/detail/hidden.hpp>
+#include <rota/dense/hidden.hpp>
 #include <rota/dense/outcome.hpp>
 
 #include <cstddef>
@@ -61,7 +61,7 @@ public:
   [[nodiscard]] std::int64_t most(std::span<std::int64_t const> row) const noexcept;
 
 private:
-  detail::hidden<detail::flow_search> search_;
+  hidden<detail::flow_search> search_;
 };
 
 }  // namespace rota::dense

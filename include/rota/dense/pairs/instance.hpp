@@ -85,11 +85,4 @@ protected:
   ~pair_observer() = default;
 };
 
-namespace detail {
-
-/// Hears of nothing, and costs nothing.
-struct no_observer {};
-
-}  // namespace detail
-
 }  // namespace rota::dense

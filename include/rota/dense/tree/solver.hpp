@@ -1,7 +1,7 @@
 #pragma once
 
 #include <rota/core/config.hpp>
-#include <rota/dense/detail/hidden.hpp>
+#include <rota/dense/hidden.hpp>
 #include <rota/dense/instance.hpp>
 #include <rota/dense/outcome.hpp>
 
@@ -93,7 +93,7 @@ public:
   tree_outcome solve(instance const& in, tree_oracle& oracle, tree_options const& options = {});
 
 private:
-  detail::hidden<detail::tree_search> search_;
+  hidden<detail::tree_search> search_;
 };
 
 }  // namespace rota::dense

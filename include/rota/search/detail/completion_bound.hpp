@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/allocation/detail/guarded.hpp>
+#include <rota/allocation/guarded.hpp>
 #include <rota/search/detail/objective.hpp>
 #include <rota/search/detail/plan_memory.hpp>
 #include <rota/search/detail/plan_view.hpp>

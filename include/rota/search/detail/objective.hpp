@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/allocation/detail/guarded.hpp>
+#include <rota/allocation/guarded.hpp>
 #include <rota/search/detail/plan_memory.hpp>
 #include <rota/search/detail/plan_outcome.hpp>
 #include <rota/search/detail/plan_view.hpp>
@@ -61,7 +61,7 @@ public:
       if (!holds || !*holds) return a;
     }
     fixed_utility total{sum};
-    if (view_.coupled()) a.fault = add_others(total, assignment, atoms);
+    if (view_.coupled()) add_others(total, assignment, atoms, a.fault);
     if (a.fault) return a;
     auto const utility = utility_of(assignment, in_units(total.units));
     constexpr auto most = static_cast<std::int64_t>(max_total_utility * fixed_utility::units_per_one);
@@ -101,15 +101,17 @@ public:
   }
 
 private:
-  /// total ← total + what U_p says beyond single agents.
-  [[nodiscard]] std::optional<utility_refusal<V>>
-  add_others(fixed_utility& total, std::span<dense::slot const> assignment, allocation_view<V> atoms) const {
+  /// total ← total + what U_p says beyond single agents; or `fault` ← why that is not defined.
+  void add_others(fixed_utility& total, std::span<dense::slot const> assignment, allocation_view<V> atoms,
+                  std::optional<utility_refusal<V>>& fault) const {
     if (pairs_.in_tables) {
       auto const together = memory_.pairs.value(assignment);
-      if (!together || !checked_add(total, {*together}))
-        return pairs_.fault ? pairs_.fault : utility_refusal<V>{utility_fault::out_of_range, {}, {}};
+      if (!together || !checked_add(total, {*together})) {
+        fault = pairs_.fault ? pairs_.fault : utility_refusal<V>{utility_fault::out_of_range, {}, {}};
+        return;
+      }
     }
-    return add_coupled<V, Beliefs>(view_.problem, view_.plan, atoms, !pairs_.in_tables, total);
+    add_coupled<V, Beliefs>(view_.problem, view_.plan, atoms, !pairs_.in_tables, total, fault);
   }
 
   plan_view<V, Beliefs>& view_;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <rota/dense/buffer.hpp>
-#include <rota/dense/detail/hidden.hpp>
 #include <rota/dense/flow/solver.hpp>
+#include <rota/dense/hidden.hpp>
 #include <rota/dense/pairs/solver.hpp>
 #include <rota/dense/ties.hpp>
 #include <rota/dense/tree/solver.hpp>
@@ -50,7 +50,7 @@ struct plan_memory {
 
 /// What a workspace holds: a memory for each plan of the type, and buffers that all plans share.
 struct search_state {
-  std::vector<dense::detail::hidden<plan_memory>> plans;  ///< in the order of the plan type
+  std::vector<dense::hidden<plan_memory>> plans;  ///< in the order of the plan type
   dense::tree_solver tree;
   dense::pair_solver pairwise;
   dense::buffer<std::int64_t> row;       ///< the utilities of one agent

@@ -68,9 +68,16 @@ public:
 
   /// The atoms of an assignment, or of its first agents; valid until the next call.
   [[nodiscard]] allocation_view<V> atoms(std::span<dense::slot const> assignment) {
+    auto const tasks = plan.tasks();
+    auto const* who = problem.participants.data();
     atoms_.clear();
-    for (std::size_t a = 0; a < assignment.size(); ++a)
-      if (assignment[a] < idle()) atoms_.push_back(atom(a, assignment[a]));
+    atoms_.append(assignment.size(), [&, id = plan.id()](in<V>* out) {
+      for (auto const s : assignment) {
+        if (s < tasks.size()) *out++ = {*who, id, tasks[s].task};
+        ++who;
+      }
+      return out;
+    });
     return {atoms_.data(), atoms_.size()};
   }
   /// The agents that an assignment of the first `decided` agents leaves open.

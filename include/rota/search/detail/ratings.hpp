@@ -39,13 +39,11 @@ template <vocabulary V, class Beliefs>
   return total;
 }
 
-/// total ← total + what the parts that read the whole allocation say and, if `pairs`, those that read two agents; or the
-/// first term that is no utility.
+/// total ← total + what the parts that read the whole allocation say and, if `pairs`, those that read two agents.
+/// `refusal` ← the first term that is no utility, if there is one. @pre none yet
 template <vocabulary V, class Beliefs>
-[[nodiscard]] std::optional<utility_refusal<V>> add_coupled(problem<V, Beliefs> const& problem,
-                                                            plan<V, Beliefs> const& p, allocation_view<V> atoms,
-                                                            bool pairs, fixed_utility& total) {
-  std::optional<utility_refusal<V>> refusal;
+void add_coupled(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, allocation_view<V> atoms, bool pairs,
+                 fixed_utility& total, std::optional<utility_refusal<V>>& refusal) {
   for_each_part<V, Beliefs>(p.utility(), [&](double weight, auto const& part) {
     using part_type = std::remove_cvref_t<decltype(part)>;
     if constexpr (std::same_as<part_type, general_utility<V, Beliefs>>) {
@@ -60,7 +58,6 @@ template <vocabulary V, class Beliefs>
         }
     }
   });
-  return refusal;
 }
 
 }  // namespace rota::detail

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/allocation/detail/guarded.hpp>
+#include <rota/allocation/guarded.hpp>
 #include <rota/search/detail/completion_bound.hpp>
 #include <rota/search/detail/objective.hpp>
 #include <rota/search/detail/plan_memory.hpp>
@@ -26,6 +26,7 @@ struct rejections {
   bool precondition_threw = false;
 
   void note(appraisal<V> const& a) {
+    if (a.worth) return;
     if (!fault) fault = a.fault;
     if (a.negative_utility)
       negative_utility = (std::max)(negative_utility.value_or(*a.negative_utility), *a.negative_utility);

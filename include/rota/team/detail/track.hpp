@@ -4,6 +4,7 @@
 #include <rota/team/authority.hpp>
 #include <rota/team/belief.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -69,6 +70,10 @@ struct track {
       if (believed.takes_part(x.agent)) alive.push_back(x);
     }
     return allocation_atoms<V>::from_ascending(std::move(alive));
+  }
+  /// Whether the entered plan type has every plan and task of this allocation.
+  [[nodiscard]] bool knows(allocation_atoms<V> const& atoms) const {
+    return std::all_of(atoms.begin(), atoms.end(), [&](in<V> const& x) { return names.find(x.plan, x.task); });
   }
   /// Adopts an allocation. Whoever gets a new task is taken to begin in its entry state.
   /// @pre `e` leads from the believed allocation to `atoms`

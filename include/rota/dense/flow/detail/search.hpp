@@ -120,8 +120,8 @@ private:
     bool const close = graph_.normalise();
     if (flow == slot_graph::flow::interrupted) return hurry(in);
     if (!close) {  // prices drifted apart in parts of the graph that hardly meet: narrow searches from 0 do not let them
-      graph_.reset(in);
-      if (auto const out = tighten(in)) return *out;
+      graph_.clear();
+      std::fill(graph_.prices().begin(), graph_.prices().end(), 0);
       for (row_index a = 0; a < in.agents; ++a)
         if (in.takes_part(a)) graph_.place(a);
       graph_.keep_ledgers();

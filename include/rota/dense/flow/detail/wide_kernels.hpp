@@ -44,24 +44,24 @@ ROTA_FOR_AVX2 row_entry relax(std::int64_t base, std::int64_t const* price, std:
   numbers value1 = value0, at1 = at0;
   std::size_t k = 0;
   for (; k + 2 * width <= n; k += 2 * width) {
-    numbers label0 = lanes_at<width>(label + k), via0 = lanes_at<width>(via + k);
-    numbers const offered0 = bases + lanes_at<width>(price + k) - lanes_at<width>(gain + k);
+    numbers label0 = lanes_at<width>(label + k).v, via0 = lanes_at<width>(via + k).v;
+    numbers const offered0 = bases + lanes_at<width>(price + k).v - lanes_at<width>(gain + k).v;
     auto const less0 = offered0 < label0;
     label0 = less0 ? offered0 : label0;
     via0 = less0 ? links : via0;
-    lanes_at<width>(label + k) = label0;
-    lanes_at<width>(via + k) = via0;
+    lanes_at<width>(label + k).v = label0;
+    lanes_at<width>(via + k).v = via0;
     auto const least0 = label0 < value0;
     value0 = least0 ? label0 : value0;
     at0 = least0 ? index : at0;
     index += 4;
-    numbers label1 = lanes_at<width>(label + k + width), via1 = lanes_at<width>(via + k + width);
-    numbers const offered1 = bases + lanes_at<width>(price + k + width) - lanes_at<width>(gain + k + width);
+    numbers label1 = lanes_at<width>(label + k + width).v, via1 = lanes_at<width>(via + k + width).v;
+    numbers const offered1 = bases + lanes_at<width>(price + k + width).v - lanes_at<width>(gain + k + width).v;
     auto const less1 = offered1 < label1;
     label1 = less1 ? offered1 : label1;
     via1 = less1 ? links : via1;
-    lanes_at<width>(label + k + width) = label1;
-    lanes_at<width>(via + k + width) = via1;
+    lanes_at<width>(label + k + width).v = label1;
+    lanes_at<width>(via + k + width).v = via1;
     auto const least1 = label1 < value1;
     value1 = least1 ? label1 : value1;
     at1 = least1 ? index : at1;
@@ -83,7 +83,7 @@ ROTA_FOR_AVX2 row_entry least(std::int64_t const* label, std::size_t n, std::int
   numbers value = all(limit), at = all(-1);
   std::size_t k = 0;
   for (; k + width <= n; k += width) {
-    numbers const x = lanes_at<width>(label + k);
+    numbers const x = lanes_at<width>(label + k).v;
     auto const less = x < value;
     value = less ? x : value;
     at = less ? index : at;
@@ -98,11 +98,11 @@ ROTA_FOR_AVX2 row_entry least(std::int64_t const* label, std::size_t n, std::int
 
 ROTA_FOR_AVX2 std::size_t best(std::int64_t const* worth, std::int64_t const* price, std::size_t n) {
   numbers index = {0, 1, 2, 3};
-  numbers value = lanes_at<width>(price) - lanes_at<width>(worth), at = index;
+  numbers value = lanes_at<width>(price).v - lanes_at<width>(worth).v, at = index;
   std::size_t k = width;
   for (; k + width <= n; k += width) {
     index += 4;
-    numbers const x = lanes_at<width>(price + k) - lanes_at<width>(worth + k);
+    numbers const x = lanes_at<width>(price + k).v - lanes_at<width>(worth + k).v;
     auto const less = x < value;
     value = less ? x : value;
     at = less ? index : at;
@@ -116,11 +116,11 @@ ROTA_FOR_AVX2 std::size_t best(std::int64_t const* worth, std::int64_t const* pr
 
 ROTA_FOR_AVX2 row_leaders best_two(std::int64_t const* worth, std::int64_t const* price, std::size_t n) {
   numbers index = {0, 1, 2, 3};
-  numbers value = lanes_at<width>(price) - lanes_at<width>(worth), at = index, second = all(-row_leaders::nothing);
+  numbers value = lanes_at<width>(price).v - lanes_at<width>(worth).v, at = index, second = all(-row_leaders::nothing);
   std::size_t k = width;
   for (; k + width <= n; k += width) {
     index += 4;
-    numbers const x = lanes_at<width>(price + k) - lanes_at<width>(worth + k);
+    numbers const x = lanes_at<width>(price + k).v - lanes_at<width>(worth + k).v;
     auto const less = x < value;
     numbers const loser = less ? value : x;
     value = less ? x : value;
@@ -147,11 +147,11 @@ ROTA_FOR_AVX2 void raise(std::int64_t const* row, std::int64_t base, std::int64_
   numbers const bases = all(base), links = all(link);
   std::size_t k = 0;
   for (; k + width <= n; k += width) {
-    numbers const x = lanes_at<width>(row + k) - bases;
-    numbers const old = lanes_at<width>(most + k);
+    numbers const x = lanes_at<width>(row + k).v - bases;
+    numbers const old = lanes_at<width>(most + k).v;
     auto const more = x > old;
-    lanes_at<width>(most + k) = more ? x : old;
-    lanes_at<width>(who + k) = more ? links : lanes_at<width>(who + k);
+    lanes_at<width>(most + k).v = more ? x : old;
+    lanes_at<width>(who + k).v = more ? links : lanes_at<width>(who + k).v;
   }
   for (; k < n; ++k)
     if (row[k] - base > most[k]) most[k] = row[k] - base, who[k] = link;
@@ -162,9 +162,9 @@ ROTA_FOR_AVX2 std::size_t first_tight(std::int64_t const* gain, std::int64_t pri
   numbers const here = all(price_here);
   // Most rows have none, and looking at one lane costs as much as a comparison: four vectors at once.
   for (; k + 4 * width <= n; k += 4 * width) {
-    auto any = lanes_at<width>(gain + k) + here >= lanes_at<width>(price + k);
+    auto any = lanes_at<width>(gain + k).v + here >= lanes_at<width>(price + k).v;
     for (std::size_t i = width; i < 4 * width; i += width)
-      any |= lanes_at<width>(gain + k + i) + here >= lanes_at<width>(price + k + i);
+      any |= lanes_at<width>(gain + k + i).v + here >= lanes_at<width>(price + k + i).v;
     any |= ROTA_SIMD_PERMUTE(any, 2, 3, 0, 1);
     if ((any[0] | any[1]) != 0) break;
   }

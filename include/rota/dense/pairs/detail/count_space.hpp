@@ -1,7 +1,7 @@
 #pragma once
 
+#include <rota/core/size.hpp>
 #include <rota/dense/buffer.hpp>
-#include <rota/dense/detail/size.hpp>
 #include <rota/dense/instance.hpp>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ public:
   }
   [[nodiscard]] packed_counts unit(std::size_t s) const { return packed_counts{1} << (field_ * s); }
   [[nodiscard]] std::size_t count(packed_counts c, std::size_t s) const {
-    return detail::to_size(c >> (field_ * s)) & ((std::size_t{1} << (field_ - 1)) - 1);
+    return rota::detail::to_size(c >> (field_ * s)) & ((std::size_t{1} << (field_ - 1)) - 1);
   }
   /// Whether c_s ≤ d_s for every slot.
   [[nodiscard]] bool below(packed_counts c, packed_counts d) const { return (((d | guard_) - c) & guard_) == guard_; }
@@ -78,7 +78,7 @@ public:
     std::size_t const mask = (std::size_t{1} << (field_ - 1)) - 1;
     std::uint32_t const* table = before_.data();
     for (std::size_t s = 0; s + 1 < slots_; ++s, table += row * (row + 1), c >>= field_) {
-      std::size_t const here = detail::to_size(c & mask);
+      std::size_t const here = rota::detail::to_size(c & mask);
       number += table[k * (row + 1) + here];
       k -= here;
     }

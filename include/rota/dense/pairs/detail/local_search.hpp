@@ -1,8 +1,8 @@
 #pragma once
 
+#include <rota/core/size.hpp>
 #include <rota/dense/buffer.hpp>
-#include <rota/dense/detail/size.hpp>
-#include <rota/dense/pairs/detail/model.hpp>
+#include <rota/dense/pairs/detail/pair_values.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -18,10 +18,10 @@ namespace rota::dense::detail {
 class local_search {
 public:
   /// Improves an assignment within the bounds; once, if stop() says so. @return its exact value
-  std::int64_t improve(pair_model const& model, std::span<slot_bounds const> bounds, std::span<slot> best,
+  std::int64_t improve(pair_values const& values, std::span<slot_bounds const> bounds, std::span<slot> best,
                        std::size_t rounds, stop_request const& stop) {
-    agents_ = model.agents();
-    slots_ = model.slot_count();
+    agents_ = values.agents();
+    slots_ = values.slot_count();
     gain_.resize(agents_ * slots_);
     count_.resize(slots_);
     at_.resize(agents_);
@@ -29,10 +29,10 @@ public:
     std::int64_t value = 0;
     for (std::size_t round = 0; round <= rounds; ++round) {
       if (round != 0 && stop()) break;
-      start(model, best);
-      if (round != 0) disturb(model, bounds, random);
-      descend(model, bounds);
-      std::int64_t const now = model.value(at_);
+      start(values, best);
+      if (round != 0) disturb(values, bounds, random);
+      descend(values, bounds);
+      std::int64_t const now = values.value(at_);
       if (round != 0 && now <= value) continue;
       value = now;
       std::copy(at_.begin(), at_.end(), best.begin());
@@ -45,25 +45,25 @@ private:
     std::uint64_t z = random += 0x9e3779b97f4a7c15U;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return detail::to_size(((z ^ (z >> 31)) >> 32) * n >> 32);
+    return rota::detail::to_size(((z ^ (z >> 31)) >> 32) * n >> 32);
   }
 
   /// gain_[a, x] ← what a is worth in x, the others staying where they are.
-  void start(pair_model const& model, std::span<slot const> from) {
+  void start(pair_values const& values, std::span<slot const> from) {
     std::copy(from.begin(), from.end(), at_.begin());
     std::fill(count_.begin(), count_.end(), 0);
     for (std::size_t a = 0; a < agents_; ++a)
-      for (std::size_t x = 0; x < slots_; ++x) gain_[a * slots_ + x] = model.unary(a, x);
+      for (std::size_t x = 0; x < slots_; ++x) gain_[a * slots_ + x] = values.unary(a, x);
     for (std::size_t a = 0; a < agents_; ++a) {
       ++count_[at_[a]];
-      std::int64_t const* const with = model.pairs(a, at_[a]);
+      std::int64_t const* const with = values.pairs(a, at_[a]);
       for (std::size_t i = 0; i < gain_.size(); ++i) gain_[i] += with[i];
     }
   }
 
-  void move(pair_model const& model, std::size_t a, std::size_t x) {
-    std::int64_t const* const without = model.pairs(a, at_[a]);
-    std::int64_t const* const with = model.pairs(a, x);
+  void move(pair_values const& values, std::size_t a, std::size_t x) {
+    std::int64_t const* const without = values.pairs(a, at_[a]);
+    std::int64_t const* const with = values.pairs(a, x);
     for (std::size_t i = 0; i < gain_.size(); ++i) gain_[i] += with[i] - without[i];
     --count_[at_[a]];
     ++count_[x];
@@ -74,24 +74,24 @@ private:
     return x != at_[a] && count_[x] < bounds[x].upper && count_[at_[a]] > bounds[at_[a]].lower;
   }
 
-  void disturb(pair_model const& model, std::span<slot_bounds const> bounds, std::uint64_t& random) {
+  void disturb(pair_values const& values, std::span<slot_bounds const> bounds, std::uint64_t& random) {
     std::size_t const moves = 2 + draw(random, agents_ / 3 + 1);
     for (std::size_t i = 0; i < moves; ++i) {
       std::size_t const a = draw(random, agents_);
       std::size_t const x = draw(random, slots_);
       if (movable(bounds, a, x)) {
-        move(model, a, x);
+        move(values, a, x);
         continue;
       }
       std::size_t const b = draw(random, agents_);
       std::size_t const y = at_[a];
       if (at_[b] == y) continue;
-      move(model, a, at_[b]);
-      move(model, b, y);
+      move(values, a, at_[b]);
+      move(values, b, y);
     }
   }
 
-  void descend(pair_model const& model, std::span<slot_bounds const> bounds) {
+  void descend(pair_values const& values, std::span<slot_bounds const> bounds) {
     for (;;) {
       std::int64_t most = 0;
       std::size_t agent = agents_;
@@ -102,12 +102,12 @@ private:
         std::int64_t const here = gain[at_[a]];
         for (std::size_t x = 0; x < slots_; ++x)
           if (gain[x] - here > most && movable(bounds, a, x)) most = gain[x] - here, agent = a, other = agents_, to = x;
-        std::int64_t const* const from_a = model.pairs(a, at_[a]);
+        std::int64_t const* const from_a = values.pairs(a, at_[a]);
         for (std::size_t b = a + 1; b < agents_; ++b) {
           std::size_t const x = at_[a];
           std::size_t const y = at_[b];
           if (x == y) continue;
-          std::int64_t const* const pair_a = model.pairs(a, y) + b * slots_;
+          std::int64_t const* const pair_a = values.pairs(a, y) + b * slots_;
           std::int64_t const* const stay_a = from_a + b * slots_;
           std::int64_t const change = gain[y] - here + gain_[b * slots_ + x] - gain_[b * slots_ + y] + pair_a[x] -
                                       pair_a[y] + stay_a[y] - stay_a[x];
@@ -116,8 +116,8 @@ private:
       }
       if (agent == agents_) return;
       std::size_t const home = at_[agent];
-      move(model, agent, to);
-      if (other != agents_) move(model, other, home);
+      move(values, agent, to);
+      if (other != agents_) move(values, other, home);
     }
   }
 

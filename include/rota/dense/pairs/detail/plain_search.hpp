@@ -31,9 +31,8 @@ public:
   /// @param limit placements after which it gives up
   /// @return whether there is a valid assignment: then `best` is the canonical optimum and `value` its value; nothing if it
   /// has given up @pre suits
-  template <class Observer>
   std::optional<bool> solve(pair_instance const& in, std::uint64_t limit, std::span<slot> best, std::int64_t& value,
-                            std::span<pair_tally> tallies, Observer& observer) {
+                            std::span<pair_tally> tallies, pair_observer* observer) {
     read(in);
     best_ = nothing;
     nodes_ = 0;
@@ -89,16 +88,15 @@ private:
   }
 
   /// @return false if it has given up
-  template <class Observer>
   bool place(std::span<slot_bounds const> bounds, std::size_t d, std::int64_t value, std::span<slot> best,
-             std::span<pair_tally> tallies, Observer& observer) {
+             std::span<pair_tally> tallies, pair_observer* observer) {
     std::int64_t const* const field = fields_[d].data() + d * slots_;
     for (std::size_t x = 0; x < slots_; ++x) {
       at_[d] = static_cast<slot>(x);
       std::uint64_t const missing = missing_ - (count_[x] < bounds[x].lower ? 1 : 0);
       if (count_[x] >= bounds[x].upper || missing > agents_ - d - 1) {
         ++tallies[d + 1].by_cardinality;
-        if constexpr (!std::is_same_v<Observer, no_observer>) tell(observer, d + 1, pair_cut::cardinality, forbidden);
+        if (observer != nullptr) tell(*observer, d + 1, pair_cut::cardinality, forbidden);
         continue;
       }
       if (nodes_ == limit_) return false;
@@ -123,7 +121,7 @@ private:
       }
       if (most <= best_) {
         ++tallies[d + 1].by_bound;
-        if constexpr (!std::is_same_v<Observer, no_observer>) tell(observer, d + 1, pair_cut::bound, most);
+        if (observer != nullptr) tell(*observer, d + 1, pair_cut::bound, most);
         continue;
       }
       std::uint64_t const before = missing_;
@@ -136,8 +134,7 @@ private:
     return true;
   }
 
-  template <class Observer>
-  void tell(Observer& observer, std::size_t placed, pair_cut why, std::int64_t bound) {
+  void tell(pair_observer& observer, std::size_t placed, pair_cut why, std::int64_t bound) {
     std::array<slot, most_agents> partial;
     partial.fill(no_slot);
     std::copy_n(at_.begin(), placed, partial.begin());

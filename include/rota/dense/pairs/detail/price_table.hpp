@@ -1,7 +1,8 @@
 #pragma once
 
+#include <rota/core/size.hpp>
 #include <rota/dense/buffer.hpp>
-#include <rota/dense/detail/size.hpp>
+#include <rota/dense/pairs/detail/lane_kernels.hpp>
 #include <rota/dense/pairs/detail/suffix_bounds.hpp>
 
 #include <algorithm>
@@ -35,29 +36,18 @@ public:
     std::uint32_t stamp = 0;  ///< of the search, and the depth
     std::int32_t most = 0;
     price_list prices{};
-    std::uint32_t version = 0;                       ///< of the prices; never twice the same in a search
-    bool by_slot = false;                            ///< most_by is known
-    std::int16_t credit = 0;                         ///< attempts to improve that are still worth making
-    std::uint32_t final = 0;                         ///< where the maximum is
-    std::array<std::int32_t, most_slots> most_by{};  ///< with the next agent in that slot, which pays no price
+    std::uint32_t version = 0;                            ///< of the prices; never twice the same in a search
+    bool by_slot = false;                                 ///< most_by_slot is known
+    std::int16_t credit = 0;                              ///< attempts to improve that are still worth making
+    std::uint32_t final = 0;                              ///< where the maximum is
+    std::array<std::int32_t, most_slots> most_by_slot{};  ///< with the next agent in that slot, which pays no price
   };
 
-  /// So many final counts are worth looking at for so few agents: nodes saved must pay for it.
-  static constexpr std::size_t most_finals(std::size_t agents) { return agents < 18 ? 1024 : 8192; }
-  /// How many final counts there are, or more than `most_finals(agents)`.
-  static std::size_t number_of_finals(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper,
-                                      std::size_t agents) {
-    std::array<std::size_t, max_pair_agents + 1> ways{};
-    ways[0] = 1;
-    for (std::size_t s = 0; s < upper.size(); ++s)
-      for (std::size_t r = agents + 1; r-- > 0;) {
-        std::size_t sum = 0;
-        for (std::size_t t = lower[s]; t <= r && t <= upper[s]; ++t) sum += ways[r - t];
-        ways[r] = (std::min)(sum, most_finals(agents) + 1);
-      }
-    return ways[agents];
+  /// Whether slots and final counts are few enough for prices to be worth their while.
+  static bool suits(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper, std::size_t agents) {
+    return upper.size() <= most_slots && count_space::fits(upper.size(), agents) &&
+           number_of_finals(lower, upper, agents) <= most_finals(agents);
   }
-
   void prepare(pair_model const& model, suffix_bounds const& suffix, std::span<std::uint32_t const> lower,
                std::span<std::uint32_t const> upper) {
     agents_ = model.agents();
@@ -94,33 +84,27 @@ public:
   /// The state of a node at depth d with these counts. Good until the next call.
   state& at(std::size_t d, packed_counts placed) {
     std::uint64_t const mixed = (placed + d * 0x9e3779b97f4a7c15U) * 0xd1342543de82ef95U;
-    state& s = states_[detail::to_size(mixed >> shift_)];
+    state& s = states_[rota::detail::to_size(mixed >> shift_)];
     if (s.key != placed || s.stamp != (epoch_ << 7) + d) [[unlikely]]
       make(s, d, placed);
     return s;
   }
 
-  /// Makes most_by known.
-  void split(state& s) {
+  /// Makes most_by_slot known.
+  void bound_by_slot(state& s) {
     s.by_slot = true;
     std::size_t const d = s.stamp & 127U;
     std::size_t const valid = list_valid(s.key, agents_ - d);
     float const* const by = suffix_->by_slot(d);
     std::size_t const width = suffix_->width();
-    std::array<floats4, most_slots / 4> most;
-    most.fill(floats4::all(suffix_table::impossible));
     std::fill(values_.begin(), values_.end(), 0.0F);
-    add_prices(s.prices.data());
-    for (std::size_t i = 0; i < valid; ++i) {
-      float const* const here = by + numbers_[i] * width;
-      floats4 const prices = floats4::all(values_[valid_[i]]);
-      for (std::size_t b = 0; b < width / 4; ++b) most[b] = greater(floats4::load(here + 4 * b) + prices, most[b]);
-    }
-    float flat[most_slots];
-    for (std::size_t b = 0; b < width / 4; ++b) most[b].store(flat + 4 * b);
+    (void)add_products(components_.data(), width_, s.prices.data(), slots_, values_.data());
+    std::array<float, most_slots> flat;
+    flat.fill(suffix_table::impossible);
+    raise_by_rows({by, width, numbers_.data(), values_.data(), valid_.data(), valid}, flat.data());
     std::int32_t const paid = payment(s, s.prices.data());
     for (std::size_t y = 0; y < slots_; ++y)
-      s.most_by[y] =
+      s.most_by_slot[y] =
           flat[y] < suffix_table::feasible ? impossible : static_cast<std::int32_t>(flat[y]) - paid - s.prices[y];
   }
 
@@ -157,6 +141,22 @@ public:
   }
 
 private:
+  /// So many final counts are worth looking at for so few agents: nodes saved must pay for it.
+  static constexpr std::size_t most_finals(std::size_t agents) { return agents < 18 ? 1024 : 8192; }
+  /// How many final counts there are, or more than `most_finals(agents)`.
+  static std::size_t number_of_finals(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper,
+                                      std::size_t agents) {
+    std::array<std::size_t, max_pair_agents + 1> ways{};
+    ways[0] = 1;
+    for (std::size_t s = 0; s < upper.size(); ++s)
+      for (std::size_t r = agents + 1; r-- > 0;) {
+        std::size_t sum = 0;
+        for (std::size_t t = lower[s]; t <= r && t <= upper[s]; ++t) sum += ways[r - t];
+        ways[r] = (std::min)(sum, most_finals(agents) + 1);
+      }
+    return ways[agents];
+  }
+
   static lane limited(std::int64_t price) {
     return static_cast<lane>(std::clamp<std::int64_t>(price, -pair_model::most_price + 1, pair_model::most_price - 1));
   }
@@ -234,28 +234,10 @@ private:
     return paid;
   }
 
-  /// values_[f] += π·f. @return the greatest, in one of four
-  floats4 add_prices(lane const* price) {
-    std::array<floats4, most_slots> prices;
-    for (std::size_t y = 0; y < slots_; ++y) prices[y] = floats4::all(price[y]);
-    floats4 best = floats4::all(suffix_table::impossible);
-    for (std::size_t f = 0; f < width_; f += 4) {
-      floats4 v = floats4::load(&values_[f]);
-      float const* c = components_.data() + f;
-      for (std::size_t y = 0; y < slots_; ++y, c += width_) v = v + prices[y] * floats4::load(c);
-      best = greater(v, best);
-      v.store(&values_[f]);
-    }
-    return best;
-  }
-
   /// most(π), and the final counts where it is. Whole numbers below 2^24, so floats are exact.
   std::int32_t evaluate(state const& s, lane const* price, std::uint32_t& final) {
     std::copy_n(row_of(s), width_, values_.begin());
-    floats4 const best = add_prices(price);
-    float four[4];
-    best.store(four);
-    float const most = *std::max_element(four, four + 4);
+    float const most = add_products(components_.data(), width_, price, slots_, values_.data());
     if (most < suffix_table::feasible) return impossible;
     final = static_cast<std::uint32_t>(std::find(values_.begin(), values_.end(), most) - values_.begin());
     return static_cast<std::int32_t>(most) - payment(s, price);

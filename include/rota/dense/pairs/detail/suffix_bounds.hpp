@@ -107,16 +107,16 @@ private:
 
   /// greatest_[d] ← every term from d on at its greatest.
   void find_greatest(pair_model const& model) {
-    std::size_t const slots = model.slot_count();
+    std::size_t const slot_count = model.slot_count();
     greatest_.assign(agents_ + 1, 0);
     greatest_of_one_.resize(agents_);
     for (std::size_t d = agents_; d-- > 0;) {
       std::int32_t greatest = (std::numeric_limits<std::int32_t>::min)() / 2;
-      for (std::size_t x = 0; x < slots; ++x) {
+      for (std::size_t x = 0; x < slot_count; ++x) {
         std::int32_t sum = model.share(d, x);
         for (std::size_t j = d + 1; j < agents_; ++j) {
           std::int32_t pair = model.pair(d, x, j, 0);
-          for (std::size_t y = 1; y < slots; ++y) pair = (std::max)(pair, model.pair(d, x, j, y));
+          for (std::size_t y = 1; y < slot_count; ++y) pair = (std::max)(pair, model.pair(d, x, j, y));
           sum += pair;
         }
         greatest = (std::max)(greatest, sum);

@@ -2,7 +2,7 @@
 
 #include <rota/dense/buffer.hpp>
 #include <rota/dense/pairs/detail/count_states.hpp>
-#include <rota/dense/pairs/detail/lanes.hpp>
+#include <rota/dense/pairs/detail/lane_kernels.hpp>
 #include <rota/dense/pairs/detail/model.hpp>
 #include <rota/dense/pairs/detail/suffix_table.hpp>
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace rota::dense::detail {
+namespace rota::dense {
 
 /// Owns a T that only its own source knows, so that headers which hold one need not include it. Made when first needed.
 ///
@@ -46,4 +46,4 @@ private:
   void (*destroy_)(T*) = nullptr;
 };
 
-}  // namespace rota::dense::detail
+}  // namespace rota::dense

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace rota::dense::detail {
+namespace rota::detail {
 
 /// n as a size. A plain cast would be useless where sizes have 64 bits, and some compile with -Wuseless-cast.
 /// @pre n fits
@@ -15,4 +15,4 @@ template <class Size = std::size_t>
     return n;
 }
 
-}  // namespace rota::dense::detail
+}  // namespace rota::detail

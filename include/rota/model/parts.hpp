@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/model/detail/finite.hpp>
+#include <rota/core/finite.hpp>
 #include <rota/model/utility.hpp>
 
 #include <variant>
