@@ -83,4 +83,11 @@ struct reproduce_options {
 };
 [[nodiscard]] outcome run_reproduce(reproduce_options const& o);
 
+struct monitors_options {
+  std::size_t runs = 200;
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+[[nodiscard]] outcome run_monitors(monitors_options const& o);
+
 }  // namespace rota::cli

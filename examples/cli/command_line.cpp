@@ -140,6 +140,18 @@ void add_reproduce(CLI::App& program, command& chosen) {
   sub.add_flag("--json", o->json, "print JSON");
 }
 
+void add_monitors(CLI::App& program, command& chosen) {
+  auto const o = std::make_shared<monitors_options>();
+  CLI::App& sub = add(program, chosen, o, run_monitors, "monitors",
+                      "Monitors side by side: how soon each sees a conflict, what it misses, its false alarms");
+  sub.add_option("--runs", o->runs,
+                 "so many runs a figure, and a fifth as many minutes of five robots for false alarms")
+      ->check(within(std::size_t{5}, std::size_t{1'000'000}, "a whole number from 5 to 1000000"))
+      ->capture_default_str();
+  sub.add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
+  sub.add_flag("--json", o->json, "print JSON");
+}
+
 }  // namespace
 
 command parse_command_line(int argc, char** argv) {
@@ -151,6 +163,7 @@ command parse_command_line(int argc, char** argv) {
   add_allocate(program, chosen);
   add_simulate(program, chosen);
   add_reproduce(program, chosen);
+  add_monitors(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& e) {

@@ -318,4 +318,22 @@ std::string as_json(evaluation const& e, std::uint64_t seed) {
   return out.dump(2) + '\n';
 }
 
+std::string as_json(std::vector<monitor_row> const& rows, std::uint64_t seed) {
+  ordered_json out;
+  auto list = ordered_json::array();
+  for (auto const& r : rows) {
+    ordered_json row;
+    row["monitor"] = r.name;
+    row["cycles"] = r.cycles;
+    row["detection_ms"] = r.detection_ms;
+    row["fights_missed"] = r.fights_missed;
+    row["missed"] = r.missed;
+    row["false_alarms_per_robot_minute"] = r.alarms;
+    list.push_back(std::move(row));
+  }
+  out["monitors"] = std::move(list);
+  out["seed"] = seed;
+  return out.dump(2) + '\n';
+}
+
 }  // namespace rota::cli

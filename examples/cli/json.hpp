@@ -1,5 +1,6 @@
 #pragma once
 
+#include "monitors.hpp"
 #include <rota/adapters/alica/model.hpp>
 #include <rota/search/limits.hpp>
 #include <rota/sim/fwd.hpp>
@@ -75,5 +76,8 @@ struct named_allocation {
 
 /// All runs, each in the form of one run.
 [[nodiscard]] std::string as_json(evaluation const& e, std::uint64_t seed);
+
+/// The table of monitors, a row each.
+[[nodiscard]] std::string as_json(std::vector<monitor_row> const& rows, std::uint64_t seed);
 
 }  // namespace rota::cli
