@@ -1,7 +1,7 @@
 #pragma once
 
 #include <rota/algebra/universe.hpp>
-#include <rota/core/detail/simd.hpp>
+#include <rota/core/simd.hpp>
 #include <rota/core/small_vector.hpp>
 
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/core/detail/simd.hpp>
+#include <rota/core/simd.hpp>
 #include <rota/dense/flow/detail/row_entry.hpp>
 
 #include <algorithm>

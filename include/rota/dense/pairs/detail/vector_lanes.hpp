@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/core/detail/simd.hpp>
+#include <rota/core/simd.hpp>
 #include <rota/dense/pairs/detail/lanes.hpp>
 
 #include <algorithm>
