@@ -1,7 +1,7 @@
-// What pairwise utilities cost rota beyond the rows beside peers: how many instances are proved within one tick, and what
-// symmetry saves.
+// Pairwise utilities, besides the rows that compare rota with peers: how many instances are proved within one tick, and how
+// much symmetry saves.
 //
-// `proved` counts seeds whose optimum is proved in 30 ms each, by the clock; `nodes` are placements tried per instance.
+// `proved` counts the seeds whose optimum is proved within 30 ms by the clock; `nodes` are placements tried per instance.
 
 #include "instances.hpp"
 #include "ours.hpp"
@@ -17,7 +17,7 @@ namespace {
 using instances::size;
 using clock_type = std::chrono::steady_clock;
 
-/// An instance with views of its own numbers.
+/// An instance that owns its numbers.
 struct problem {
   peers::pairwise_instance numbers;
   std::vector<rota::dense::slot_bounds> bounds = ours::bounds_of(numbers.bounds);

@@ -1,6 +1,6 @@
-// The best allocation from nothing: `5x3` is five agents and three tasks, everybody may idle.
+// The best allocation of one plan: `5x3` is five agents and three tasks, and everybody may idle.
 //
-// Every task takes at most a few agents and the first needs one, so that agents compete. Utilities rotate.
+// Every task takes at most a few agents and the first needs one, so that agents compete. Each step has other utilities.
 
 #include "support.hpp"
 
@@ -20,7 +20,7 @@ using vocabulary = rota::runtime_vocabulary;
 using atom = rota::in<vocabulary>;
 using view = rota::allocation_view<vocabulary>;
 
-/// How good each agent is at each task, and what two agents on one task are worth together.
+/// The skill of each agent at each task, and the worth of two agents on one task together.
 struct beliefs {
   std::size_t tasks = 0;
   std::vector<double> skill;
@@ -77,7 +77,7 @@ std::vector<beliefs> some_beliefs(size s) {
   return all;
 }
 
-/// The best admissible utility by trying every assignment.
+/// The greatest utility of a valid assignment, by trying all.
 double enumerate(beliefs const& b, size s, bool additive) {
   double best = -std::numeric_limits<double>::infinity();
   std::vector<std::size_t> choice(s.agents, 0);
@@ -104,7 +104,7 @@ double enumerate(beliefs const& b, size s, bool additive) {
   }
 }
 
-/// The best additive utility by the Hungarian method, one column per place. A big number keeps the needed place filled.
+/// The greatest additive utility by the Hungarian method, one column per place. A large reward keeps the needed place filled.
 double hungarian(beliefs const& b, size s) {
   std::size_t const n = s.agents;
   std::vector<std::size_t> task_of;
@@ -151,7 +151,7 @@ double hungarian(beliefs const& b, size s) {
   return sum;
 }
 
-/// Utilities are rounded to 2^-20 once per term; an optimum of the rounded ones is as near to that of the real ones.
+/// Each term is rounded to 2^-20, so the optimum of the rounded utilities is as near to that of the real ones.
 bool near(double fixed, double real) { return std::abs(fixed - real) < 1e-4; }
 
 void best(benchmark::State& state, size s, bool additive) {
@@ -174,7 +174,7 @@ void enumeration(benchmark::State& state, size s, bool additive) {
   rotate(state, views, [&](beliefs const& b) { return enumerate(b, s, additive); });
 }
 
-/// A running allocation is judged under changing beliefs, and left where another one is better.
+/// Beliefs change; the running allocation stays unless another one is better.
 void reallocate_changing(benchmark::State& state, size s, bool additive) {
   auto const type = make_type(s, additive);
   auto const members = make_team(s.agents);

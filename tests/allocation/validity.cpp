@@ -242,7 +242,9 @@ TEST(validity, a_total_beyond_the_greatest_is_no_utility) {
     one_task_world const w(d);
     auto const report = validate(w.problem(), atoms_t{at(1)});
     EXPECT_EQ(report.valid(), parts == 1024);
-    if (!report) EXPECT_EQ(report.begin()->fault, utility_fault::out_of_range);
+    if (!report) {
+      EXPECT_EQ(report.begin()->fault, utility_fault::out_of_range);
+    }
     EXPECT_EQ(evaluate(w.problem(), *w.type.find(names::plan(1)), atoms_t{at(1)}).has_value(), parts == 1024);
   }
 }

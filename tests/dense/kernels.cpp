@@ -118,7 +118,7 @@ void check(kernels const& k, std::size_t shortest) {
 TEST(kernel, plain_loops_compute_what_they_say) { check(plain, 1); }
 
 TEST(kernel, vectors_compute_what_plain_loops_do) {
-  if (!rota::dense::detail::simd::has_avx2()) GTEST_SKIP() << "no AVX2 here, or switched off";
+  if (!rota::detail::simd::has_avx2()) GTEST_SKIP() << "no AVX2 here, or switched off";
   check(wide, 8);
 }
 

@@ -1,4 +1,4 @@
-// The pairwise solver finds what enumeration finds first, and what other ways to solve special cases find.
+// The pairwise solver finds the same as enumeration, and as solvers of special cases.
 #include "dense/pairs_world.hpp"
 
 #include <rota/dense/flow/solver.hpp>
@@ -22,7 +22,7 @@ struct shares {
       settled = 0;
 };
 
-/// The solvers and enumeration on one problem.
+/// Compares the solvers with enumeration.
 void agree(problem const& p, std::initializer_list<pair_solver*> solvers, shares& reached) {
   optimum const best = enumerate(p);
   bool twins = false;
@@ -171,7 +171,7 @@ TEST(pair_solver, chains_are_solved_like_chains) {
 }
 
 TEST(pair_solver, the_greatest_numbers_are_added_right) {
-  // Σ max|u| + Σ max|w| is just what is accepted.
+  // Σ max|u| + Σ max|w| is the greatest that is accepted.
   pair_solver s;
   for (std::size_t const n : {4u, 6u}) {
     problem p;

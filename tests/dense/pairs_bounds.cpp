@@ -1,4 +1,4 @@
-// What the last agents are worth by counts: no assignment exceeds its bound, and enumerated bounds are met.
+// Bounds by counts on the last agents: no assignment exceeds its bound, and bounds that are not rounded are reached.
 #include "dense/pairs_world.hpp"
 
 #include <rota/dense/pairs/detail/model.hpp>
@@ -118,7 +118,7 @@ TEST(suffix_bounds, no_assignment_exceeds_its_bound) {
         });
         continue;
       }
-      // One or two agents are never rounded.
+      // The bounds of one or two agents are not rounded.
       compare(suffix, model, p, first, n - first <= std::min<std::size_t>(plan.enumerated, 2), s);
     }
   }));

@@ -24,8 +24,6 @@ TEST(pair_solver, every_cut_is_right_and_nothing_is_forgotten) {
     problem const p = any_problem(d, 4000);
     std::vector<char> covered(power(p.slots, p.agents), 0);
     std::int64_t best = absent;
-    // What no valid assignment in a cut subtree is worth more than; the best of all may be cut only if it is not alone.
-    std::vector<std::pair<choice, std::int64_t>> bounds;
     auto const observe = [&](std::span<slot const> partial, pair_cut why, std::int64_t bound) {
       ++cuts[static_cast<int>(why)];
       choice x(partial.begin(), partial.end());
@@ -61,7 +59,7 @@ TEST(pair_solver, a_symmetric_cut_has_its_like_elsewhere) {
       if (why != pair_cut::symmetry) return;
       choice x(partial.begin(), partial.end());
       completions(p, x, 0, [&](choice const& c) {
-        // Two agents exchanged give an assignment that comes first and is worth the same.
+        // Exchanging two agents gives an assignment that comes before and is worth the same.
         bool like = false;
         for (std::size_t a = 0; a < p.agents; ++a)
           for (std::size_t b = a + 1; b < p.agents; ++b) {
@@ -78,7 +76,7 @@ TEST(pair_solver, a_symmetric_cut_has_its_like_elsewhere) {
 }
 
 TEST(pair_solver, interchangeable_agents_take_non_decreasing_slots_and_save_the_work) {
-  // Ten agents of one kind that are better apart, five slots of their own worth.
+  // Ten agents of one kind that had better be apart, and five slots of different worth.
   problem p;
   p.agents = 10;
   p.slots = 5;
@@ -99,7 +97,7 @@ TEST(pair_solver, interchangeable_agents_take_non_decreasing_slots_and_save_the_
   choice const c = chosen(alike);
   EXPECT_TRUE(std::is_sorted(c.begin(), c.end()));
   EXPECT_EQ(value_of(p, c), alike.value);
-  // A unit here and there, and nobody can be exchanged any more.
+  // With a unit more here and there, no two agents can be exchanged.
   problem q = p;
   for (std::size_t a = 0; a < 10; ++a) q.unary[a * 5 + a % 5] += static_cast<std::int64_t>(a);
   auto const unlike = s.solve(q.view());
@@ -109,7 +107,7 @@ TEST(pair_solver, interchangeable_agents_take_non_decreasing_slots_and_save_the_
   RecordProperty("unlike", static_cast<int>(unlike.work.nodes));
 }
 
-// Where anybody may idle there are thousands of ways to fill the slots, and bounds by counts are worth their while.
+// Where all may idle there are thousands of final counts, and bounds by counts still pay.
 TEST(pair_solver, room_for_everybody_in_one_slot_does_not_undo_the_bounds) {
   problem p = dense_problem(3, 18, 5);
   for (auto& b : p.bounds) b = {0, 6};

@@ -1,4 +1,4 @@
-// The inner loops of the pairwise solver: plain ones, those on vectors, and what this machine chooses, all do as defined.
+// The inner loops of the pairwise solver: plain loops, loops on vectors, and those chosen for this machine compute the same.
 #include "support/dice.hpp"
 
 #include <rota/dense/pairs/detail/lane_kernels.hpp>
@@ -27,7 +27,7 @@ lanes draw(dice& d, std::size_t count, int range) {
   return v;
 }
 
-// All ways to compute each that this machine has.
+// Each kernel in all variants that this machine has.
 
 std::vector<child_kernel> child_kernels(std::size_t stride, bool floored) {
   std::vector<child_kernel> all{choose_child_kernel(stride, floored),
@@ -100,7 +100,7 @@ TEST(pair_kernels, a_node_is_seen_as_defined) {
   }));
 }
 
-/// For each slot a state with one agent more, no two the same; or none.
+/// For each slot a state, no two the same; or none.
 std::vector<std::uint32_t> draw_next(dice& d, std::size_t slots, std::size_t states) {
   std::vector<std::uint32_t> next(states);
   for (std::size_t i = 0; i < states; ++i) next[i] = static_cast<std::uint32_t>(i);

@@ -1,4 +1,4 @@
-// Whatever limit stops the pairwise solver, it leaves a valid assignment and a proven bound; and it uses memory again.
+// Whatever limit stops the pairwise solver, it leaves a valid assignment and a proven bound; and it reuses its memory.
 #include "dense/pairs_world.hpp"
 #include "support/allocation_counter.hpp"
 
@@ -54,7 +54,7 @@ TEST(pair_solver, any_budget_leaves_a_valid_assignment_and_a_bound) {
   EXPECT_GE(stopped * 100, cases * 20) << stopped << " of " << cases;
 }
 
-// Getting ready is work as well: for twenty agents more than half a tick.
+// Making bounds takes time, too: for twenty agents more than half a tick.
 TEST(pair_solver, may_be_stopped_before_there_is_anything_to_search) {
   problem large = dense_problem(1, 20, 5);
   for (auto& b : large.bounds) b.upper = 5;

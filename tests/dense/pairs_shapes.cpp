@@ -49,7 +49,7 @@ TEST(pair_solver, where_all_are_equal_the_first_assignment_is_chosen) {
   auto const got = s.solve(p.view());
   EXPECT_TRUE(got.proved());
   EXPECT_EQ(chosen(got), (choice{0, 0, 0, 1, 1, 1, 2, 2, 2, 2, 3, 3}));
-  // Nobody interchangeable, yet every assignment worth the same: rows and columns that cancel.
+  // No two agents are interchangeable, yet all assignments are worth the same: rows and columns cancel.
   dice d(5);
   for (std::uint32_t b = 1; b < 12; ++b)
     for (std::uint32_t a = 0; a < b; ++a) {
@@ -67,7 +67,7 @@ TEST(pair_solver, where_all_are_equal_the_first_assignment_is_chosen) {
   EXPECT_EQ(chosen(cancelled), (choice{0, 0, 0, 1, 1, 1, 2, 2, 2, 2, 3, 3}));
 }
 
-// A pair that many tables forbid is as far away as one that a single table forbids, not so far that sums come round again.
+// A combination that many tables forbid counts as forbidden once: otherwise sums would overflow.
 TEST(pair_solver, forbidden_often_is_forbidden) {
   problem p;
   p.agents = 3;

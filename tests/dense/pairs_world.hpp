@@ -49,7 +49,7 @@ struct problem {
   }
 };
 
-/// The value of an assignment, read off the definition; nothing if it is not valid.
+/// The value of an assignment by definition; nothing if it is not valid.
 inline std::optional<std::int64_t> value_of(problem const& p, choice const& x) {
   std::vector<std::uint32_t> count(p.slots, 0);
   std::int64_t sum = 0;
@@ -108,7 +108,7 @@ inline std::uint64_t power(std::uint64_t base, std::size_t exponent) {
   return r;
 }
 
-/// Σ over prefixes of what is below them, modulo 2^64.
+/// How many assignments the account of a search covers, modulo 2^64.
 inline std::uint64_t accounted(pair_solver const& s, problem const& p) {
   std::uint64_t sum = 0;
   auto const account = s.account();
@@ -165,7 +165,7 @@ inline problem random_problem(dice& d, std::size_t n, std::size_t m, flavour con
     if (kind[a] != a)
       for (std::size_t b = 0; b < a; ++b)
         if (kind[b] == kind[a]) {
-          // A constant more in every slot changes nothing.
+          // A constant that is added in every slot changes nothing.
           std::int64_t const more = d.chance(30) ? d.below(5) : 0;
           for (std::size_t x = 0; x < m; ++x) {
             std::int64_t const u = p.unary[b * m + x];
@@ -183,7 +183,7 @@ inline problem random_problem(dice& d, std::size_t n, std::size_t m, flavour con
       }
       bool const zero = std::all_of(w.begin(), w.end(), [](auto v) { return v == 0; });
       if (zero && d.chance(80)) continue;
-      // Either way round; the table is for the smaller kind first.
+      // Tables are for the smaller kind first, and come either way round.
       table t{static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(a), w};
       if (kind[b] > kind[a]) std::swap(t.first, t.second);
       if (d.chance(50)) {
@@ -229,7 +229,7 @@ inline problem any_problem(dice& d, std::uint64_t most) {
   return random_problem(d, n, m, f);
 }
 
-/// All ways to divide the work.
+/// Some way to divide the work.
 inline rota::dense::pair_effort any_effort(dice& d) {
   rota::dense::pair_effort e;
   e.plain_nodes = d.chance(60) ? 0 : d.chance(50) ? d.bits() % 300 : 16384;
@@ -238,7 +238,7 @@ inline rota::dense::pair_effort any_effort(dice& d) {
   return e;
 }
 
-/// Dense and large enough for every part of the solver to be used.
+/// Every pair is coupled, and the size makes the solver use all its parts.
 inline problem dense_problem(std::uint64_t seed, std::size_t n, std::size_t m) {
   dice d(seed);
   problem p = random_problem(d, n, m, {.levels = 1 << 20, .bounded = false});

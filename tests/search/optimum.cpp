@@ -25,7 +25,7 @@ bool running(raw_problem const& raw, raw_plan const& p) {
   return std::any_of(raw.current.begin(), raw.current.end(), [&](fact const& x) { return x.plan == p.id; });
 }
 
-/// The library and enumeration on one random problem.
+/// Compares the library with enumeration on one random problem.
 void agree(raw_problem const& raw, rota::workspace& work, shares& s) {
   built const b(raw);
   rota::problem problem{b.type, b.team, b.beliefs, b.participants, idling_of(raw)};
@@ -58,7 +58,7 @@ void agree(raw_problem const& raw, rota::workspace& work, shares& s) {
   RC_ASSERT(validate(problem, *b.type.find(got->plan), got->atoms, phase).valid());
   RC_ASSERT(!got->ignored);
 
-  // The runner-up is the best of the others.
+  // The runner-up is the best of the other plans.
   reading::best second;
   for (auto const& p : raw.plans) {
     if (p.id == expected.plan->id) continue;
@@ -96,7 +96,7 @@ void agree(raw_problem const& raw, rota::workspace& work, shares& s) {
   s.lower +=
       std::any_of(expected.plan->tasks.begin(), expected.plan->tasks.end(), [](auto const& t) { return t.min > 0; });
   s.team += expected.plan->team_min > 0 || expected.plan->team_max != unlimited;
-  // A wrong model, blind to lower bounds, must be told apart.
+  // A wrong model that ignores lower bounds must give another answer.
   auto lax = raw;
   for (auto& p : lax.plans) {
     p.team_min = 0;
@@ -186,7 +186,7 @@ TEST(best_allocation, depends_on_no_listing_order_and_no_history) {
       problem.current = b.current.atoms();
       problem.change_cost = raw.change_cost;
       auto found = best_allocation(problem, w);
-      if (found) found->work = {};  // what was done may depend on what was done before
+      if (found) found->work = {};  // the work may depend on what was searched before
       return found;
     };
     auto const before = solve(first, used);
@@ -204,7 +204,7 @@ TEST(best_allocation, depends_on_no_listing_order_and_no_history) {
   }));
 }
 
-// Larger than enumeration can go: additive optima against branch and bound, which shares nothing with the flow.
+// Problems too large for enumeration: the flow against branch and bound, which shares no code with it.
 TEST(best_allocation, flow_and_tree_agree) {
   rota::dense::flow_solver flow;
   rota::dense::tree_solver tree;

@@ -23,7 +23,7 @@ using small_world::dice;
 using small_world::names;
 using plan_t = rota::plan<names, rota::no_beliefs>;
 
-/// A plan whose utility is made of numbers drawn once, some of them no utilities.
+/// A plan whose utility is a table of numbers drawn once. Some of them may be NaN.
 struct drawn {
   int agents = 0;
   int tasks = 0;
@@ -50,7 +50,7 @@ struct drawn {
     return together[index(static_cast<int>(x.agent), static_cast<int>(x.task), static_cast<int>(y.agent),
                           static_cast<int>(y.task))];
   }
-  /// The plan, with a precondition that always holds or with none: the one is searched as a tree, the other is not.
+  /// The plan. With a precondition, which always holds, it is searched as a tree; without one by the pairwise solver.
   [[nodiscard]] rota::plan_type<names> type(bool as_tree) const {
     rota::plan_description<names, rota::no_beliefs> d;
     d.tasks = list;
@@ -72,7 +72,7 @@ rota::team<names> team_of(int n) {
   return t;
 }
 
-// Of 6^7 allocations and fewer.
+// At most 6^7 allocations each.
 TEST(pairwise_plans, solver_and_tree_agree) {
   rota::workspace work;
   int found = 0;
@@ -150,7 +150,7 @@ TEST(pairwise_plans, any_budget_leaves_a_valid_allocation_and_a_gap) {
     RC_ASSERT(validate(ask, type.plans()[0], some->atoms, rota::plan_phase::entering).valid());
     RC_ASSERT(some->utility <= best->utility && some->utility + some->gap >= best->utility);
     RC_ASSERT(!some->optimal || some->atoms == best->atoms);
-    // What was left undone is done as if nothing had been.
+    // With enough budget the used workspace finds the same as a fresh one.
     auto again = best_allocation(ask, spent);
     RC_ASSERT(again && again->atoms == best->atoms && again->optimal);
   }));
@@ -175,7 +175,7 @@ TEST(pairwise_plans, what_has_not_changed_is_not_searched_again_and_allocates_no
   EXPECT_EQ(second->atoms, first->atoms);
   auto now = *first;
   int moved = 0;
-  // One number that counts: of two agents and what they do now, or of any agent.
+  // Each round changes one number: of two agents in their current tasks, or of any agent alone.
   for (int round = 0; round < 50; ++round) {
     if (round % 2 == 0) {
       auto const atoms = now.atoms.atoms();
@@ -229,7 +229,7 @@ TEST(pairwise_plans, what_is_no_utility_names_both_agents) {
   }
 }
 
-// Too many agents for tables, and numbers too great for the solver: branch and bound is left.
+// With too many agents for tables, or numbers too great for the pairwise solver, branch and bound takes over.
 TEST(pairwise_plans, beyond_the_limits_of_the_pairwise_solver) {
   dice d(11);
   rota::workspace work;
@@ -256,7 +256,7 @@ TEST(pairwise_plans, beyond_the_limits_of_the_pairwise_solver) {
   EXPECT_EQ(best->utility, 3 * rota::max_utility + 12);
   EXPECT_EQ(best->atoms.atoms()[1].task, names::task(1)) << "the first two apart, the lexicographically first so";
 
-  // Sums so great that what is forbidden to the pairwise solver would look like a gain.
+  // Sums so great that a forbidden combination would look like a gain to the pairwise solver.
   drawn alone(d, 3, 1, 1, 0);
   alone.list = {{names::task(0), {3, 3}, {}}};
   for (auto& u : alone.alone) u = rota::max_utility;

@@ -18,7 +18,7 @@ namespace {
 using namespace small_world;
 using reason = rota::reallocation_reason;
 
-/// What should happen, read off the definition on plain data.
+/// What should happen, by the definition, on plain data.
 struct expectation {
   facts atoms;
   reason why{};
@@ -28,7 +28,7 @@ bool executes(facts const& c, raw_plan const& p) {
   return std::any_of(c.begin(), c.end(), [&](fact const& x) { return x.plan == p.id; });
 }
 
-/// `raw.current` is the current allocation.
+/// `raw.current` is the running allocation.
 expectation expect(raw_problem const& raw, rota::hysteresis const& h) {
   auto const& current = raw.current;
   auto const best = reading::enumerate(raw);
@@ -48,7 +48,7 @@ expectation expect(raw_problem const& raw, rota::hysteresis const& h) {
   return {best.atoms, current.empty() ? reason::first : standing ? reason::adopted_better : reason::current_invalid};
 }
 
-/// A bonus for leaving would make a team restless.
+/// Whether some plan pays a bonus for leaving: then a team never rests.
 bool restless(raw_problem const& raw) {
   return std::any_of(raw.plans.begin(), raw.plans.end(), [](raw_plan const& p) { return p.sum && p.sum->staying < 0; });
 }
@@ -121,7 +121,7 @@ TEST(reallocate, keeps_what_is_valid_and_good_enough) {
         RC_ASSERT(reading::judge(raw, *q, expected.atoms, executes(current, *q)).valid());
         entry += q->entry_only && !reading::judge(raw, *q, expected.atoms, false).valid();
       }
-      // Nothing left to do, except where a precondition no longer counts that did on entry.
+      // A second call changes nothing, unless a precondition counted on entry and does not count any more.
       auto const again = reallocate(problem.running(got.atoms), h, work);
       bool const entered = got.plan && reading::find_plan(raw, static_cast<int>(*got.plan))->entry_only;
       if (!entered && !restless(raw)) RC_ASSERT(again.event.empty());

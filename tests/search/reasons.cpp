@@ -17,7 +17,7 @@ namespace {
 using namespace small_world;
 using reason = rota::no_plan_reason;
 
-/// Solves a plan of the given tasks for agents 0..n−1 after a last change to the data.
+/// Solves a plan with the given tasks for agents 0..n−1; a test may change the data first.
 struct fixture {
   raw_problem raw;
   rota::workspace work;
@@ -87,7 +87,7 @@ TEST(no_allocation, forbidden_pairs) {
   EXPECT_EQ(g.refusal().why, reason::agent_without_task);
   EXPECT_EQ(g.refusal().agent, names::agent(1));
 
-  // Hall's condition fails: agents 0 and 1 fit task 0 only, which bears one.
+  // Hall's condition fails: agents 0 and 1 may do task 0 only, which takes one.
   fixture h(3, {{0, 0, 1}, {1, 0, 2}});
   h.raw.idle = false;
   h.u(0, 1).reset();
@@ -126,7 +126,7 @@ TEST(no_allocation, what_is_no_utility_is_named) {
   EXPECT_EQ(r.fault, rota::utility_fault::not_a_number);
   EXPECT_EQ(r.agent, names::agent(1));
   EXPECT_EQ(r.task, names::task(0));
-  // Where the team can do without the pair it does, and still says so.
+  // If the team can do without the pair, it does, and still reports it.
   f.plan().tasks[0].min = 1;
   auto const s = f.solve();
   ASSERT_TRUE(s);
@@ -141,7 +141,7 @@ TEST(no_allocation, what_is_no_utility_is_named) {
   EXPECT_EQ(g.refusal().fault, rota::utility_fault::positive_infinity);
 }
 
-/// Plans whose tasks are worth the same to everybody.
+/// Plans in which every agent has the same utility on every task.
 struct great {
   using V = rota::runtime_vocabulary;
   static rota::plan<V> plan_of(std::uint64_t id, std::uint64_t tasks, double worth) {
@@ -158,7 +158,7 @@ struct great {
   }
 };
 
-// Valid by the definition, but not searched: so nothing is proved about such a plan.
+// Allocations of such a plan may be valid, but they are not searched: so nothing is proved about it.
 TEST(no_allocation, utilities_too_great_for_so_many_tasks_prove_nothing) {
   using V = great::V;
   auto const modest = great::plan_of(1, 2, 1);
@@ -193,7 +193,8 @@ TEST(no_allocation, utilities_too_great_for_so_many_tasks_prove_nothing) {
   EXPECT_EQ(best->utility, 2 * rota::max_utility);
 }
 
-// What each agent gains by moving is what moving costs it, so objectives are 0 where utilities sum to more than 64 bits hold.
+// Each agent gains by moving exactly what moving costs. So objectives are 0, although the utilities sum to more than 64 bits
+// hold.
 TEST(no_allocation, change_costs_count_in_what_is_summed_exactly) {
   using V = great::V;
   auto const type = rota::plan_type<V>::make({}, {great::plan_of(1, 1, rota::max_utility)}).value();
@@ -236,7 +237,7 @@ TEST(best_allocation, nobody_and_strangers) {
   EXPECT_EQ(nobody->utility, 0.0);
   f.plan().tasks[0].min = 1;
   EXPECT_EQ(f.refusal().why, reason::too_few_agents);
-  // A participant the team does not know gets nothing.
+  // A participant that is not in the team gets no task.
   fixture g(1, {{0, 0, 2}});
   g.raw.participants = {0, 5};
   ASSERT_TRUE(g.solve());

@@ -20,6 +20,11 @@
 #error "rota needs C++20: compile with -std=c++20"
 #endif
 
+#include <cstddef>  // tells which standard library this is
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 170000
+#error "rota needs libc++ 17 or later, or libstdc++ 11 or later"
+#endif
+
 /// Marks a function that is no template and is defined in a header.
 #ifdef ROTA_COMPILED
 #define ROTA_INLINE

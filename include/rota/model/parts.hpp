@@ -3,22 +3,30 @@
 #include <rota/core/finite.hpp>
 #include <rota/model/utility.hpp>
 
+#include <cstddef>
+#include <utility>
 #include <variant>
 
 namespace rota::detail {
 
+/// Calls f with what the variant holds; std::visit takes longer to compile. @pre the variant holds something
+template <class Variant, class F>
+void with_held(Variant const& v, F&& f) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (void)((v.index() == I && (f(*std::get_if<I>(&v)), true)) || ...);
+  }(std::make_index_sequence<std::variant_size_v<Variant>>{});
+}
+
 /// Calls f(weight, part) for each part of U_p. A utility that is not a `weighted_sum` is one part of weight 1.
 template <vocabulary V, class Beliefs, class F>
 void for_each_part(utility<V, Beliefs> const& u, F&& f) {
-  std::visit(
-      [&](auto const& whole) {
-        if constexpr (requires { whole.begin()->weight; }) {
-          for (auto const& [weight, part] : whole) std::visit([&, w = weight](auto const& x) { f(w, x); }, part.form());
-        } else {
-          f(1.0, whole);
-        }
-      },
-      u.form());
+  with_held(u.form(), [&](auto const& whole) {
+    if constexpr (requires { whole.begin()->weight; }) {
+      for (auto const& [weight, part] : whole) with_held(part.form(), [&, w = weight](auto const& x) { f(w, x); });
+    } else {
+      f(1.0, whole);
+    }
+  });
 }
 
 /// True if there is a part and every part has a callable.

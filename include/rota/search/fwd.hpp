@@ -13,6 +13,10 @@ enum class assign_fault : unsigned char;
 enum class no_plan_reason : unsigned char;
 enum class reallocation_reason : unsigned char;
 template <vocabulary V>
+struct runner_up;
+template <vocabulary V>
+struct bound_lie;
+template <vocabulary V>
 struct solution;
 template <vocabulary V>
 struct plan_refusal;

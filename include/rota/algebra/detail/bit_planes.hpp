@@ -1,6 +1,7 @@
 #pragma once
 
 #include <rota/algebra/universe.hpp>
+#include <rota/core/simd.hpp>
 #include <rota/core/small_vector.hpp>
 
 #include <array>
@@ -60,18 +61,10 @@ template <std::size_t Planes, class F>
   }
 }
 
-// Registers of 256 bits are asked for at run time, whatever the unit is compiled for: the linker may keep this function for
-// units that were compiled for less. Worth it from 1024 atoms on. `out` never aliases the inputs.
-#if defined(__GNUC__) && defined(__x86_64__)
-inline bool has_wide_registers() noexcept { return __builtin_cpu_supports("avx2") != 0; }
+#if ROTA_SIMD_AVX2
+/// The same loop, compiled for registers of 256 bits. `out` never aliases the inputs. @pre simd::has_avx2()
 template <std::size_t Planes, class F>
-[[gnu::target("avx2")]] void write_planes_widely(word* __restrict out, std::size_t n, F& words_at) {
-  write_planes<Planes>(out, n, words_at);
-}
-#else
-inline bool has_wide_registers() noexcept { return false; }
-template <std::size_t Planes, class F>
-void write_planes_widely(word* out, std::size_t n, F& words_at) {
+ROTA_FOR_AVX2 void write_planes_widely(word* __restrict out, std::size_t n, F& words_at) {
   write_planes<Planes>(out, n, words_at);
 }
 #endif
@@ -91,10 +84,13 @@ public:
   constexpr bit_planes(U const& universe, F&& words_at) : universe_{universe} {
     std::size_t const n = words();
     auto const fill = [&](word* out) {
-      if (!std::is_constant_evaluated() && n >= 16 && has_wide_registers())
+#if ROTA_SIMD_AVX2
+      if (!std::is_constant_evaluated() && n >= 16 && simd::has_avx2()) {  // below, asking costs more than it gains
         write_planes_widely<Planes>(out, n, words_at);
-      else
-        write_planes<Planes>(out, n, words_at);
+        return out + Planes * n;
+      }
+#endif
+      write_planes<Planes>(out, n, words_at);
       return out + Planes * n;
     };
     if constexpr (fixed_universe<U>) {

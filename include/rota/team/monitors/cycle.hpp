@@ -25,10 +25,10 @@ public:
   /// Takes in what a message changed about its sender. Rules ii, iv, v. O(senders watched).
   void on_message(part_change<V> const& change, instant now) {
     bool const agreeing = change.empty();
-    watch* w = lower(change.agent);
-    if (w == watches_.end() || !(w->sender == change.agent)) {
+    watch* w = find(change.agent);
+    if (!w) {
       if (agreeing) return;
-      w = watches_.insert(w, watch{.sender = change.agent});
+      w = insert(change.agent);
     }
     if (w->open && !w->deliberated) {
       if (!agreeing && change.after == w->old_part) w->open = false;
@@ -66,8 +66,7 @@ public:
   void clear() noexcept { watches_.clear(); }
   /// Forgets b, which was deleted from the team.
   void forget(agent_id b) {
-    watch* const w = lower(b);
-    if (w != watches_.end() && w->sender == b) watches_.erase(w);
+    if (watch* const w = find(b)) watches_.erase(w);
   }
   /// Moves all instants by d: the clock has been set.
   void shift(duration d) noexcept {
@@ -99,6 +98,15 @@ private:
   watch* lower(agent_id b) {
     return std::lower_bound(watches_.begin(), watches_.end(), b,
                             [](watch const& w, agent_id key) { return w.sender < key; });
+  }
+  watch* find(agent_id b) {
+    watch* const w = lower(b);
+    return w != watches_.end() && w->sender == b ? w : nullptr;
+  }
+  watch* insert(agent_id b) {
+    watch fresh;
+    fresh.sender = b;
+    return watches_.insert(lower(b), fresh);
   }
 
   monitor_options options_;

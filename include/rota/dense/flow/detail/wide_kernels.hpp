@@ -1,12 +1,16 @@
 #pragma once
 
-#include <rota/dense/detail/simd.hpp>
+#include <rota/core/simd.hpp>
 #include <rota/dense/flow/detail/row_entry.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+
+namespace rota::dense::detail {
+namespace simd = rota::detail::simd;
+}
 
 #if ROTA_SIMD_AVX2
 

@@ -158,7 +158,7 @@ private:
       std::int32_t const own = field[x * lanes.stride];
       list[count].value = value + own + shares[x];
       list[count].at = static_cast<slot>(x);
-      count += bar.cuts(others + own + most_by_slot_[x]) ? 0 : 1;
+      count += bar.cuts(others + own + most_by_slot_[x]) ? 0U : 1U;
     }
     bar_->tied = bar.tied;
     account_->tally(d + 1).by_bound += tried - count;

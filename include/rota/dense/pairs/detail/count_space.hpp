@@ -12,16 +12,15 @@
 
 namespace rota::dense::detail {
 
-/// How many agents each slot has, as one word: equal fields, each with a spare top bit for comparing.
+/// How many agents each slot has, as one word: a field per slot, all equally wide, each with a spare top bit for comparing.
 using packed_counts = std::uint64_t;
 
-/// The vectors of counts (c_0 … c_{m−1}) with c_s ≤ upper_s and a sum of at most `most`, numbered within each sum.
-///
-/// Numbers of one sum are 0, 1, …, in lexicographic order. O(m·most²) memory for ranks, O(m) per count vector besides.
+/// The vectors of counts (c_0 … c_{m−1}) with c_s ≤ upper_s and a sum of at most `most`. Those of one sum are numbered
+/// 0, 1, … in lexicographic order. O(m·most²) memory.
 class count_space {
 public:
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
-  static constexpr std::size_t most_indices = 16384;
+  static constexpr std::uint32_t none = ~std::uint32_t{0};  ///< no vector; and the greatest number of vectors counted
+  static constexpr std::size_t most_indices = 16384;        ///< weights stop growing beyond
 
   /// Whether the counts of n agents fit into one word.
   static bool fits(std::size_t slot_count, std::size_t agents) {
@@ -58,9 +57,9 @@ public:
       }
   }
 
-  /// How many vectors sum up to k.
+  /// How many vectors have the sum k.
   [[nodiscard]] std::size_t size(std::size_t k) const { return ways_[k]; }
-  /// How many vectors the largest of the sums up to k has.
+  /// The greatest size of a sum up to k.
   [[nodiscard]] std::size_t size_of_largest(std::size_t k) const {
     return *std::max_element(ways_.begin(), ways_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
   }
@@ -71,7 +70,7 @@ public:
   /// Whether c_s ≤ d_s for every slot.
   [[nodiscard]] bool below(packed_counts c, packed_counts d) const { return (((d | guard_) - c) & guard_) == guard_; }
 
-  /// The number of a vector among those of sum k. @pre it sums up to k ≤ most and respects the upper bounds
+  /// The number of a vector among those of sum k. @pre its sum is k ≤ most, and it respects the upper bounds
   [[nodiscard]] std::size_t rank(packed_counts c, std::size_t k) const {
     std::size_t number = 0;
     std::size_t const row = most_ + 1;
@@ -85,7 +84,8 @@ public:
     return number;
   }
 
-  /// Σ_s c_s·weight_s over all slots but the loosest: tells vectors of one sum apart, and is additive.
+  /// Σ_s c_s·weight_s over all slots but the one with the greatest upper bound. It is additive, and vectors of one sum differ
+  /// in it.
   [[nodiscard]] std::size_t index(packed_counts c) const {
     std::size_t sum = 0;
     for (std::size_t s = 0; s < slots_; ++s) sum += count(c, s) * weight_[s];
@@ -103,7 +103,7 @@ public:
   }
 
 private:
-  /// `room`: what slots from s on can hold, so that nothing is begun that they could not take.
+  /// @param room how many agents the slots from s on can hold: a vector that they could not complete is not begun
   void list(std::span<std::uint32_t const> lower, std::span<std::uint32_t const> upper, std::size_t k, std::size_t room,
             std::size_t s, packed_counts c, buffer<packed_counts>& out) const {
     if (s + 1 == slots_) {
@@ -121,8 +121,8 @@ private:
   packed_counts guard_ = 0;
   std::size_t indices_ = 1;
   buffer<std::size_t> weight_;
-  buffer<std::uint32_t> ways_;    // [s, r]: vectors of slots s… that sum up to r
-  buffer<std::uint32_t> before_;  // [s, r, t]: of these, the ones with c_s < t
+  buffer<std::uint32_t> ways_;    // [s, r]: how many vectors of the slots from s on have the sum r
+  buffer<std::uint32_t> before_;  // [s, r, t]: how many of these have c_s < t
 };
 
 }  // namespace rota::dense::detail

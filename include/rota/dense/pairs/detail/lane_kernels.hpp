@@ -1,6 +1,5 @@
 #pragma once
 
-#include <rota/dense/detail/simd.hpp>
 #include <rota/dense/pairs/detail/lanes.hpp>
 #include <rota/dense/pairs/detail/plain_lanes.hpp>
 #include <rota/dense/pairs/detail/vector_lanes.hpp>

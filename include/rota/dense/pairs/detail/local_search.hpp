@@ -11,13 +11,15 @@
 
 namespace rota::dense::detail {
 
-/// Iterated local search: moves and exchanges to the best neighbour until none is better, then a few random ones.
+/// Iterated local search: goes to the best neighbour until none is better, then makes a few random moves and begins again.
+/// A neighbour has one agent moved, or two agents exchanged.
 ///
-/// Stays within the bounds of the slots; what is forbidden is very expensive. The same stream of random numbers in every
-/// call, so equal inputs give equal assignments. O(n·m) per move, O(n²) to choose one; O(n·m) memory.
+/// Stays within the bounds of the slots; forbidden entries are very expensive. Every call draws the same random numbers, so
+/// equal inputs give equal assignments. O(n·m) per move, O(n·m + n²) to choose one; O(n·m) memory.
 class local_search {
 public:
-  /// Improves an assignment within the bounds; once, if stop() says so. @return its exact value
+  /// Improves an assignment, and at most `rounds` times begins again; not again once stop() says so.
+  /// @return its exact value @pre it is within the bounds
   std::int64_t improve(pair_values const& values, std::span<slot_bounds const> bounds, std::span<slot> best,
                        std::size_t rounds, stop_request const& stop) {
     agents_ = values.agents();
@@ -31,7 +33,7 @@ public:
       if (round != 0 && stop()) break;
       start(values, best);
       if (round != 0) disturb(values, bounds, random);
-      descend(values, bounds);
+      climb(values, bounds);
       std::int64_t const now = values.value(at_);
       if (round != 0 && now <= value) continue;
       value = now;
@@ -41,6 +43,7 @@ public:
   }
 
 private:
+  /// A random number below n.
   static std::size_t draw(std::uint64_t& random, std::size_t n) {
     std::uint64_t z = random += 0x9e3779b97f4a7c15U;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -48,7 +51,7 @@ private:
     return rota::detail::to_size(((z ^ (z >> 31)) >> 32) * n >> 32);
   }
 
-  /// gain_[a, x] ← what a is worth in x, the others staying where they are.
+  /// gain_[a, x] ← what a is worth in x if the others stay where they are.
   void start(pair_values const& values, std::span<slot const> from) {
     std::copy(from.begin(), from.end(), at_.begin());
     std::fill(count_.begin(), count_.end(), 0);
@@ -91,7 +94,8 @@ private:
     }
   }
 
-  void descend(pair_values const& values, std::span<slot_bounds const> bounds) {
+  /// Goes to the best neighbour until none is better.
+  void climb(pair_values const& values, std::span<slot_bounds const> bounds) {
     for (;;) {
       std::int64_t most = 0;
       std::size_t agent = agents_;
@@ -123,9 +127,9 @@ private:
 
   std::size_t agents_ = 0;
   std::size_t slots_ = 0;
-  buffer<slot> at_;
-  buffer<std::uint32_t> count_;
-  buffer<std::int64_t> gain_;
+  buffer<slot> at_;              // [agent]
+  buffer<std::uint32_t> count_;  // [slot]
+  buffer<std::int64_t> gain_;    // [agent, slot]
 };
 
 }  // namespace rota::dense::detail

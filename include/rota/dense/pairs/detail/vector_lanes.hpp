@@ -1,6 +1,6 @@
 #pragma once
 
-#include <rota/dense/detail/simd.hpp>
+#include <rota/core/simd.hpp>
 #include <rota/dense/pairs/detail/lanes.hpp>
 
 #include <algorithm>
@@ -8,6 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+
+namespace rota::dense::detail {
+namespace simd = rota::detail::simd;
+}
 
 #if ROTA_SIMD
 

@@ -42,7 +42,7 @@
 #define ROTA_SIMD_INLINE inline
 #endif
 
-namespace rota::dense::detail::simd {
+namespace rota::detail::simd {
 
 /// Whether the processor has AVX2. It was asked when the program started: a load and a test.
 [[nodiscard]] inline bool has_avx2() noexcept {
@@ -77,4 +77,4 @@ ROTA_SIMD_INLINE typename lanes<T, Count>::memory& lanes_at(T* p) noexcept {
 
 #endif
 
-}  // namespace rota::dense::detail::simd
+}  // namespace rota::detail::simd
