@@ -5,7 +5,7 @@ export DEBIAN_FRONTEND=noninteractive
 
 compiler_packages=(g++ cmake ninja-build)
 library_packages=(libboost-dev libeigen3-dev nlohmann-json3-dev libpugixml-dev libcli11-dev)
-test_packages=(libgtest-dev librapidcheck-dev z3 libglpk-dev meson pkg-config)
+test_packages=(libgtest-dev librapidcheck-dev z3 spin libglpk-dev meson pkg-config)
 benchmark_packages=(libbenchmark-dev libroaring-dev)
 # Of the allocation search; about 50 MB and 93 packages on a bare machine, most of them what libgecode-dev draws in.
 peer_packages=(liblemon-dev libglpk-dev coinor-libcbc-dev libgecode-dev toulbar2 gringo)
