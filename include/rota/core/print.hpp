@@ -11,7 +11,6 @@
 #include <rota/core/time.hpp>
 
 #include <charconv>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -85,7 +84,7 @@ template <std::same_as<double> T>
   if (is_nan(x)) return "nan";
   if (!is_finite(x)) return has_minus_sign(x) ? "-inf" : "inf";
   if constexpr (has_floating_to_chars<T>) {
-    auto const size = std::abs(x);
+    auto const size = x < 0 ? -x : x;
     auto const format =
         size == 0 || (size >= 1e-5 && size < 1e16) ? std::chars_format::fixed : std::chars_format::scientific;
     char text[64];
