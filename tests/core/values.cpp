@@ -123,7 +123,7 @@ TEST(result, destroys_exactly_what_it_holds) {
   EXPECT_EQ(counted::alive, 0);
 }
 
-static_assert(std::is_trivially_copyable_v<rota::result<int, char>>);
+static_assert(std::is_trivially_copyable_v<rota::result<int, char>> && sizeof(rota::result<int, char>) == 8);
 static_assert(std::is_nothrow_move_constructible_v<rota::result<std::string, int>> &&
               !std::copy_constructible<rota::result<std::unique_ptr<int>, int>>);
 
@@ -144,8 +144,9 @@ TEST(result_death, the_value_of_a_refused_one_names_the_refusal) {
   rota::result<int, empty_name> const without_words = rota::refused{empty_name{3}};
   EXPECT_DEATH((void)*with_words, "refused: missing_utility");
   EXPECT_DEATH((void)without_words.value(), "refused: .*empty_name");
-#ifndef NDEBUG
   rota::result<int, int> const value = 1;
+  EXPECT_DEATH((void)value.error(), "there is no refusal");
+#ifndef NDEBUG
   EXPECT_DEATH((void)without_words.value(), "has_value");
   EXPECT_DEATH((void)value.error(), "!has_value");
 #endif

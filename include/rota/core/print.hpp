@@ -6,12 +6,11 @@
 /// `In(left, kickoff, attack)` is printed instead of `In(1, 0, 1)`.
 
 #include <rota/core/atom.hpp>
+#include <rota/core/finite.hpp>
 #include <rota/core/result.hpp>
 #include <rota/core/time.hpp>
 
-#include <bit>
 #include <charconv>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -65,7 +64,7 @@ concept has_floating_to_chars = requires(char* p, T x) { std::to_chars(p, p, x, 
 
 /// `number(x)` for libraries without std::to_chars of double: the fewest digits that printf and strtod agree on. Both
 /// read and write the locale's decimal point, which is dropped. @pre x is finite
-[[nodiscard]] inline std::string number_by_printf(double x) {
+[[nodiscard]] inline std::string number_by_printf(double const& x) {
   char text[64];
   for (int precision = 0;; ++precision) {
     std::snprintf(text, sizeof text, "%.*e", precision, x);
@@ -75,20 +74,17 @@ concept has_floating_to_chars = requires(char* p, T x) { std::to_chars(p, p, x, 
   char const* p = text;
   for (; *p != 'e'; ++p)
     if (*p >= '0' && *p <= '9') digits += *p;
-  return decimal(std::signbit(x), digits, std::atoi(p + 1));
+  return decimal(has_minus_sign(x), digits, std::atoi(p + 1));
 }
 
 /// x in decimal, in the fewest digits from which the same double is read back, whatever the locale: `-1234.5`, `1e+16`,
 /// `inf`, `nan`.
 template <std::same_as<double> T>
 [[nodiscard]] std::string number(T const& x) {
-  auto const bits = std::bit_cast<std::uint64_t>(x);  // not std::isnan: -ffast-math folds it to false
-  auto const magnitude = bits & ~(std::uint64_t{1} << 63);
-  constexpr std::uint64_t infinity = 0x7ff0'0000'0000'0000;
-  if (magnitude > infinity) return "nan";
-  if (magnitude == infinity) return bits == magnitude ? "inf" : "-inf";
+  if (is_nan(x)) return "nan";
+  if (!is_finite(x)) return has_minus_sign(x) ? "-inf" : "inf";
   if constexpr (has_floating_to_chars<T>) {
-    auto const size = std::abs(x);
+    auto const size = x < 0 ? -x : x;
     auto const format =
         size == 0 || (size >= 1e-5 && size < 1e16) ? std::chars_format::fixed : std::chars_format::scientific;
     char text[64];
@@ -98,7 +94,7 @@ template <std::same_as<double> T>
   }
 }
 template <std::same_as<float> T>
-[[nodiscard]] std::string number(T x) {
+[[nodiscard]] std::string number(T const& x) {
   return number(static_cast<double>(x));
 }
 template <std::integral T>

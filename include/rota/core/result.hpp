@@ -1,9 +1,10 @@
 #pragma once
 
 #include <rota/core/assert.hpp>
+#include <rota/core/detail/either.hpp>
 
+#include <concepts>
 #include <cstdlib>
-#include <optional>
 #include <utility>
 
 namespace rota {
@@ -43,6 +44,13 @@ template <class Refusal>
   std::abort();
 }
 
+[[noreturn]] inline void no_refusal() noexcept {
+  ROTA_REPORT("rota: there is no refusal, the result has a value\n");
+  [[maybe_unused]] constexpr bool has_value = true;
+  ROTA_ASSERT(!has_value);
+  std::abort();
+}
+
 }  // namespace detail
 
 /// A value, or a typed refusal that says why there is none.
@@ -57,20 +65,20 @@ public:
   using value_type = T;
   using refusal_type = Refusal;
 
-  constexpr result(T value) : value_(std::move(value)) {}
-  constexpr result(refused<Refusal> r) : refusal_(std::move(r.why)) {}
+  constexpr result(T value) : state_(detail::as_value{}, std::move(value)) {}
+  constexpr result(refused<Refusal> r) : state_(detail::as_refusal{}, std::move(r.why)) {}
 
-  [[nodiscard]] constexpr bool has_value() const noexcept { return value_.has_value(); }
+  [[nodiscard]] constexpr bool has_value() const noexcept { return state_.has_value; }
   constexpr explicit operator bool() const noexcept { return has_value(); }
 
   /// @pre `has_value()`
   [[nodiscard]] constexpr T const& value() const& noexcept {
-    if (!value_) detail::no_value(*refusal_);
-    return *value_;
+    if (!state_.has_value) detail::no_value(state_.held.refusal);
+    return state_.held.value;
   }
   [[nodiscard]] constexpr T& value() & noexcept {
-    if (!value_) detail::no_value(*refusal_);
-    return *value_;
+    if (!state_.has_value) detail::no_value(state_.held.refusal);
+    return state_.held.value;
   }
   [[nodiscard]] constexpr T&& value() && noexcept { return std::move(value()); }
 
@@ -82,16 +90,19 @@ public:
 
   /// @pre `!has_value()`
   [[nodiscard]] constexpr Refusal const& error() const noexcept {
-    ROTA_ASSERT(!has_value());
-    return *refusal_;
+    if (state_.has_value) detail::no_refusal();
+    return state_.held.refusal;
   }
 
-  friend bool operator==(result const&, result const&) = default;
+  friend constexpr bool operator==(result const& a, result const& b)
+    requires std::equality_comparable<T> && std::equality_comparable<Refusal>
+  {
+    if (a.has_value() != b.has_value()) return false;
+    return a.has_value() ? a.state_.held.value == b.state_.held.value : a.error() == b.error();
+  }
 
 private:
-  // Exactly one holds a value. A std::variant is smaller, but g++ 11 and clang 16 refuse it in constant expressions.
-  std::optional<T> value_;
-  std::optional<Refusal> refusal_;
+  detail::either<T, Refusal> state_;
 };
 
 }  // namespace rota

@@ -119,7 +119,8 @@ public:
   }
   /// Removes b from the participants and from the allocation. O(n).
   part_change<V> expel(agent_id b) {
-    auto const change = place(b, std::nullopt);
+    part_change<V> const change{b, part(b)};
+    if (change.before) atoms_.erase(*change.before);
     if (auto const at = find(b)) {
       who_.erase(who_.begin() + *at);
       records_.erase(records_.begin() + *at);

@@ -26,9 +26,8 @@ struct pair_best {
 
 /// Depth-first branch and bound over agents by rank, the most promising slot first; iterative.
 ///
-/// A child is cut when what `suffix_bounds` and `price_table` allow it is not above the best value, when its counts grow
-/// into no final counts, when it contains something forbidden, or when an interchangeable agent before it took a later
-/// slot. Class invariant: cut, open and evaluated assignments add up to all. O(n·m·stride) memory.
+/// A child is cut when its bound, by `suffix_bounds` and `price_table`, is not above the best value; when its counts grow into
+/// no final counts; when it contains something forbidden; or when an interchangeable agent before it took a later slot. Class invariant: cut, open and evaluated assignments add up to all. O(n·m·stride) memory.
 class pair_branch {
 public:
   void prepare(pair_model const& model, suffix_bounds const& suffix, price_table& prices,
@@ -87,7 +86,7 @@ private:
   enum class end { exhausted, stopped, found };
   static constexpr std::uint64_t poll_every = 512;
 
-  /// From now on, what allows no value above `value` is cut.
+  /// From now on, subtrees that allow no value above `value` are cut.
   void aim(pair_best const& best, std::int64_t value) {
     bar_.enough = model_->quanta(value);
     // Only a cut that allows exactly the best value can hide an equal of the best.
@@ -127,7 +126,7 @@ private:
     }
   }
 
-  /// Stopped: what is open, and what it allows.
+  /// Stopped: counts the open subtrees, and bounds them.
   end leave_open(std::size_t d) {
     for (std::size_t i = 0; i <= d; ++i) {
       pair_node const& node = path_.node(i);

@@ -14,9 +14,9 @@ namespace rota::dense::detail {
 
 /// The same values in other terms, near 0: w_ij(x, y) = r_ij(x) + r_ji(y) + v_ij(x, y), and u'_i = u_i + Σ_j r_ij.
 ///
-/// r are the means of rows and columns of the tables. Any integers would do, since what is added to u' is subtracted from
-/// the tables; means leave little to the tables, where bounds are weakest. What all slots of an agent are worth anyway is
-/// taken out of u' and into one offset: value = offset + Σ_i u'_i(x_i) + Σ_{i<j} v_ij(x_i, x_j).
+/// r are the means of rows and columns of the tables. Any integers would do, since they are added to u' and subtracted
+/// from the tables; means leave little to the tables, where bounds are weakest. The middle of each agent's u' goes into one
+/// offset: value = offset + Σ_i u'_i(x_i) + Σ_{i<j} v_ij(x_i, x_j).
 /// O(n²·m²) time, O(n²·m) memory.
 class centred_values {
 public:
@@ -90,7 +90,7 @@ private:
     return static_cast<std::int64_t>((static_cast<double>(sum) + (sum < 0 ? -0.5 : 0.5)) * one_of_slots);
   }
 
-  /// The same, of what is not forbidden.
+  /// The same without forbidden entries.
   std::int64_t means_of_present(std::size_t a, std::size_t b) {
     std::int64_t* const row = mutable_means(a, b);
     std::int64_t* const column = mutable_means(b, a);

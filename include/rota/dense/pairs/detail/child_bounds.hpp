@@ -22,9 +22,9 @@ namespace rota::dense::detail {
 struct value_bar {
   static constexpr std::int32_t none = (std::numeric_limits<std::int32_t>::min)();
 
-  std::int32_t enough = none;  ///< what allows no more than that allows nothing better than the best
-  std::int32_t par = none;     ///< what allows just that may be as good as the best; `none` where nothing can be
-  bool tied = false;           ///< something may have been cut that is as good as the best
+  std::int32_t enough = none;  ///< a subtree that allows no more has nothing better than the best
+  std::int32_t par = none;     ///< a subtree that allows just this may be as good as the best; or `none`
+  bool tied = false;           ///< an assignment as good as the best may have been cut
 
   /// Whether nothing in a subtree can be better than the best.
   bool cuts(std::int32_t allowed) {
@@ -94,7 +94,8 @@ private:
   /// What the next agent gets in each slot, a stride apart.
   static lane const* next_field(lane_node const& lanes) { return lanes.fields + lanes.first - 1; }
 
-  /// What the node has and the agents after the next one allow, at the prices of its counts; sets `most_by_slot_`.
+  /// The value of the node plus a bound on the gains of the agents after the next one, at the prices of its counts; sets
+  /// `most_by_slot_`.
   /// `value_bar::none` if that cuts the node.
   std::int32_t others_allow(std::size_t d, lane_node const& lanes, pair_child const& self) {
     pair_node const& node = path_->node(d);
@@ -171,7 +172,7 @@ private:
     return count;
   }
 
-  /// Sets what the kernel needs for each child, without those that turn out impossible. @return how many are left
+  /// Sets the kernel's input for each child, without those that turn out impossible. @return how many are left
   std::size_t set_job(std::size_t d, lane_node const& lanes, pair_child* list, std::size_t count) {
     bool const counted = suffix_->counted(d + 1);
     lane const* const field = next_field(lanes);
@@ -266,7 +267,7 @@ private:
   std::size_t price_stride_ = 0;
   std::uint64_t placements_ = 0;
   std::uint32_t tries_ = 0;
-  std::array<std::int32_t, max_pair_slots> most_by_slot_{};  // what all but the node allow, with the next agent there
+  std::array<std::int32_t, max_pair_slots> most_by_slot_{};  // [slot]: bound on the suffix with the next agent there
   buffer<std::int32_t> credit_;                              // [depth]
   buffer<pair_child> children_;                              // [depth, …]
   buffer<lane> fields_of_child_;                             // [slot, lane]

@@ -12,7 +12,7 @@
 
 namespace rota::dense::detail {
 
-/// How many numbers a set of slots has, as bits. Few: so counting them one by one is quick on any processor.
+/// The size of a set of slots, given as bits. Sets are small, so counting bit by bit is quick on any processor.
 inline std::uint64_t size_of(std::uint64_t slot_set) {
   std::uint64_t count = 0;
   for (; slot_set != 0; slot_set &= slot_set - 1) ++count;
@@ -33,7 +33,7 @@ public:
   [[nodiscard]] pair_tally& tally(std::size_t placed) { return tallies_[placed]; }
   [[nodiscard]] std::span<pair_tally const> tallies() const { return tallies_; }
 
-  /// From here on until `resume`, nothing is told, and what is counted is forgotten.
+  /// Until `resume`, the observer hears nothing, and tallies do not count.
   void pause() {
     saved_ = tallies_;
     paused_ = observer_;

@@ -23,14 +23,14 @@ constexpr lane rounded_loss(std::int32_t value, lane floor, unsigned unit_shift 
 
 /// A node of the search. Its rows are slots of `stride` lanes; lanes before `first` hold nothing.
 struct lane_node {
-  lane const* fields = nullptr;  ///< what each unplaced agent gets in each slot: its own, and from those placed
+  lane const* fields = nullptr;  ///< [slot][lane]: how much each unplaced agent gets in each slot
   std::size_t slot_count = 0;
   std::size_t stride = 0;
   std::size_t first = 0;  ///< the first lane of an agent that stays unplaced
   lane floor = 0;         ///< sums below are raised to it; the lowest lane where no combination is forbidden
 };
 
-/// A child of a node: what placing one agent adds to the fields, and the prices of slots.
+/// A child of a node: the table that placing one agent adds to the fields, and the prices of slots.
 struct lane_child {
   lane const* table = nullptr;
   lane const* prices = nullptr;
@@ -40,15 +40,15 @@ struct lane_child {
 /// one way round and for the other.
 struct lane_columns {
   lane const* column_losses = nullptr;        ///< [either way round][column]
-  lane const* added_losses = nullptr;         ///< [slot][either way round][column]: what that agent adds
-  std::int32_t const* own_losses = nullptr;   ///< [slot]: what that agent loses besides, in quanta
+  lane const* added_losses = nullptr;         ///< [slot][either way round][column]: added by that agent
+  std::int32_t const* own_losses = nullptr;   ///< [slot]: of that agent itself and with those before, in quanta
   std::uint32_t const* next_state = nullptr;  ///< [slot]: the state it leads to, or ~0
   lane* smallest = nullptr;                   ///< [state][column]: to be raised
   std::size_t per_slot = 0;                   ///< `smallest` is so much farther for each slot
   std::size_t columns = 0;                    ///< a multiple of a block
   std::size_t slot_count = 0;                 ///< at most 32
   std::int32_t prefix_loss = 0;               ///< of the agents before that one, in quanta
-  lane floor = 0;                             ///< of what all of these lose
+  lane floor = 0;                             ///< losses of that agent and those before are raised to it
   unsigned unit_shift = 0;
 };
 

@@ -51,7 +51,7 @@ private:
     return rota::detail::to_size(((z ^ (z >> 31)) >> 32) * n >> 32);
   }
 
-  /// gain_[a, x] ← what a is worth in x if the others stay where they are.
+  /// gain_[a, x] ← the worth of a in x if the others stay where they are.
   void start(pair_values const& values, std::span<slot const> from) {
     std::copy(from.begin(), from.end(), at_.begin());
     std::fill(count_.begin(), count_.end(), 0);

@@ -17,8 +17,8 @@ namespace rota::dense::detail {
 ///
 /// Quanta are 2^shift units. What is centred (`centred_values`) is rounded up to them, so that sums bound from above:
 ///   value ≤ offset + 2^shift·(Σ field_i(x_i) + Σ share_i(x_i) + Σ v_ij(x_i, x_j)),   field + share = u'.
-/// A field becomes what an unplaced agent gets in each slot: its own, to which the search adds what those placed give. A
-/// share counts among the values that `suffix_bounds` bounds.
+/// A field says how much an unplaced agent gets in each slot: its own part, to which the search adds its gains from those
+/// placed. A share is the part that `suffix_bounds` bounds.
 /// Agents that matter more to the others come first by rank; interchangeable ones in the order given.
 /// O(n²·m²) time and memory.
 class pair_model {
@@ -102,7 +102,8 @@ private:
   static constexpr std::int32_t absent_share = -(1 << 18);
   static constexpr std::int64_t quanta_limit = std::int64_t{1} << 30;
 
-  /// The last rank goes to the agent that is least coupled to the others left, and so on: what suffixes leave out is little.
+  /// The last rank goes to the agent that is least coupled to the others left, and so on from the end: a suffix then holds
+  /// the agents whose places matter least.
   void rank_agents() {
     std::size_t const n = agents_;
     order_.resize(n);

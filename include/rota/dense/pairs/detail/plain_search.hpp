@@ -154,7 +154,7 @@ private:
   std::uint64_t limit_ = 0;
   std::int64_t greatest_ = 0;  // value so far
   std::array<slot, most_agents> at_{};
-  std::array<std::int64_t, most_agents + 1> rest_{};  // [agent]: what those from it on are worth together at most
+  std::array<std::int64_t, most_agents + 1> rest_{};  // [agent]: the pairs from it on, each at its best
   std::array<std::uint32_t, most_slots> count_{};
   std::array<std::array<std::int64_t, most_agents * most_slots>, most_agents> fields_{};  // [depth][agent, slot]
   buffer<std::int64_t> pairs_;                                                            // [agent, slot][agent, slot]

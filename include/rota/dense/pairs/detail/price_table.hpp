@@ -20,8 +20,8 @@ namespace rota::dense::detail {
 ///
 /// Let a node have d agents placed, p_s of them in slot s. Whatever the prices π, it allows at most
 ///   value + Σ_{unplaced i} max_s (field_i(s) − π_s) + most(π),   most(π) = max_f best(d)[f − p] + π·(f − p)
-/// over final counts f. This is a Lagrangian relaxation: in an assignment with final counts f, as many unplaced agents pay
-/// π_s as f_s − p_s says, so the payments cancel; and the two maxima are each at least what the assignment has.
+/// over final counts f. This is a Lagrangian relaxation. In an assignment with final counts f, f_s − p_s unplaced agents go to slot s:
+/// they pay in the first sum as much as the second term gives back. And each maximum is at least the assignment's own term.
 /// Prices start from the mean of what the placed agents give to the unplaced ones, and are improved at nodes that they fail
 /// to cut.
 /// The table has a fixed size, and an entry is found by hash; an entry that was overwritten is made anew.
@@ -97,8 +97,8 @@ public:
   }
 
   /// Looks for prices under which a node allows at most `enough`, one step from those of its state, and keeps good ones.
-  /// @param node its lanes @param value of its agents placed @param allowed what it allows so far
-  /// @return what it allows at most
+  /// @param node its lanes @param value of its agents placed @param allowed its bound so far
+  /// @return its bound then
   std::int32_t improve(state& s, lane_node const& node, std::int32_t value, std::int32_t allowed, std::int32_t enough) {
     std::int64_t const square = set_excess(s, node);
     if (square == 0) return allowed;
@@ -177,7 +177,7 @@ private:
     s.most = evaluate(s, s.prices.data(), s.final);
   }
 
-  /// Prices from what an unplaced agent gets in a slot on average.
+  /// Prices from the mean of the gains of an unplaced agent in each slot.
   void set_mean_prices(state& s, std::size_t d) {
     std::size_t const left = agents_ - d;
     std::array<std::int64_t, most_slots> price{};
@@ -245,8 +245,7 @@ private:
   buffer<float> rows_;           // [state, final]: best(d)[f − p]
   buffer<float> values_;         // [final]
   buffer<std::int32_t> wanted_;  // [slot]
-  buffer<std::int64_t>
-      gains_;  // [depth, z, y]: what placed agents in z give to unplaced ones in y, over all pairs of them
+  buffer<std::int64_t> gains_;   // [depth, z, y]: of all unplaced agents in y from all placed ones in z
   buffer<std::int64_t> shares_;  // [depth, y]: of the unplaced agents
 };
 

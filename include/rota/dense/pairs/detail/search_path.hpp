@@ -17,7 +17,7 @@ namespace rota::dense::detail {
 struct pair_child {
   std::int32_t allowed = 0;         ///< nothing in it is worth more
   std::int32_t value = 0;           ///< of the agents placed
-  std::int32_t rest = 0;            ///< what the unplaced allow at the prices of that version
+  std::int32_t rest = 0;            ///< bound on the unplaced at the prices of that version
   std::uint32_t price_version = 0;  ///< see `price_table`
   slot at = 0;
 };
@@ -102,7 +102,7 @@ public:
   void back_to(std::size_t d) { --count_[at_[d]]; }
 
   [[nodiscard]] pair_node& node(std::size_t d) { return nodes_[d]; }
-  /// For the kernels: what the agents after the next one get at the node.
+  /// For the kernels: the fields of the agents after the next one, at the node.
   [[nodiscard]] lane_node lanes(std::size_t d) const {
     return {&fields_[d * row_], slots_, model_->stride(), model_->lane_of(d + 1), model_->floor()};
   }

@@ -40,11 +40,11 @@ struct suffix_plan {
 ///
 ///   best(d)[c] ≥ Σ_{i≥d} share_i(x_i) + Σ_{d≤i<j} v_ij(x_i, x_j)   for every assignment x of these agents with counts c
 ///
-/// in quanta; by_slot(d) is the same with agent d in a given slot. A node of the search has placed the agents before d. It
-/// adds to this bound what the others get from those placed, and both together bound its subtree: see `price_table`.
+/// in quanta; by_slot(d) is the same with agent d in a given slot. A node of the search has placed the agents before d. This
+/// bound, and a bound on the gains of the others from those placed, together bound its subtree: see `price_table`.
 ///
 /// The shortest suffixes are bounded by trying every assignment (`suffix_enumeration`), longer ones by placing a few agents
-/// and taking the rest from the shorter suffix (`suffix_expansion`); each says why it bounds. The suffixes longer than
+/// and taking the rest from the shorter suffix (`suffix_expansion`); each gives its reason. The suffixes longer than
 /// that have one bound each, whatever the counts: every term at its greatest, which bounds because terms are only added.
 /// Time O(m^enumerated), and O(m^4·states) per agent more.
 class suffix_bounds {
@@ -126,7 +126,7 @@ private:
     }
   }
 
-  /// The same from what the suffixes that are bounded by counts allow.
+  /// Uses the bounds by counts, which are closer, for these suffixes and for the longer ones.
   void lower_greatest() {
     for (std::size_t k = 1; k <= longest_; ++k)
       greatest_[agents_ - k] =

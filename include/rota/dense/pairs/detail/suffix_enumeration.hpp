@@ -59,7 +59,7 @@ public:
   }
 
 private:
-  // A column, what another agent adds to it, and the loss of the agents before the last two: their sum stays in a lane.
+  // The loss of a column, the loss that another agent adds to it, and that of the agents before: their sum fits in a lane.
   static constexpr lane column_floor = -14000;
   static constexpr lane added_floor = -4000;
   static constexpr lane prefix_floor = -14000;
@@ -77,7 +77,7 @@ private:
   }
   /// [either way round][column]: of the last two with those placed.
   [[nodiscard]] lane* column_losses(std::size_t placed) { return &column_losses_[placed * 2 * columns_]; }
-  /// [slot][either way round][column]: what the first of so many agents adds.
+  /// [slot][either way round][column]: added by the first of so many agents.
   [[nodiscard]] lane* added_losses(std::size_t agents) { return &added_losses_[agents * slots_ * 2 * columns_]; }
   /// [agent][slot]: of each agent not placed, but the last two: its own, and with those placed.
   [[nodiscard]] std::int32_t* own_losses(std::size_t placed) { return &own_losses_[placed * longest_ * slots_]; }
@@ -205,7 +205,7 @@ private:
       after[c] = (std::max)(static_cast<lane>(before[c] + added[c]), column_floor);
   }
 
-  /// The agent of rank first + placed goes to x: what the agents after it lose with it.
+  /// The agent of rank first + placed goes to x: adds to the losses of the agents after it.
   void add_to_others(std::size_t placed, std::size_t x) {
     std::size_t const i = first_ + placed;
     std::int32_t const* before = own_losses(placed) + slots_;
@@ -214,7 +214,7 @@ private:
       for (std::size_t y = 0; y < slots_; ++y) *after++ = *before++ + model_->pair(i, x, j, y) - greatest_pair(i, j);
   }
 
-  /// Turns losses into the bounds of the table. @param greatest what they are losses against
+  /// Turns losses into the bounds of the table. @param greatest the value against which they are losses
   void read_back(std::size_t k, std::int32_t greatest) {
     lane const* losses = smallest_losses_.data();
     float* const bounds = table_->by_slot(k);

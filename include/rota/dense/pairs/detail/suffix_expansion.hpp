@@ -15,13 +15,13 @@ namespace rota::dense::detail {
 
 /// Bounds suffixes that are too long to be enumerated, by the bounds of shorter ones.
 ///
-/// The first few agents of the suffix are placed in every way. A way is worth three things: what the placed agents have
-/// among themselves; what the others gain from them; what the others have among themselves, which the shorter suffix
-/// bounds. What an agent gains depends on its own slot only. So the most that all gain with given counts is a transport
+/// The first few agents of the suffix are placed in every way. A way is worth three things: the values of the
+/// placed agents among themselves; the gains of the others from them; the values of the others among themselves, which the
+/// shorter suffix bounds. An agent gains by its own slot only. So the most that all gain with given counts is a transport
 /// problem: agents are added one at a time, and for each state the greatest sum is kept.
 ///
 /// Why the results are bounds: an assignment places the first few in one of the ways, and with the counts of the others
-/// fixed, what they gain and what they have are each at most their own maximum. However many are placed, that holds; so
+/// fixed, their gains and their values are each at most their own maximum. However many are placed, that holds; so
 /// the least of several such bounds holds too. Losses below a floor are raised to it, which raises bounds only.
 class suffix_expansion {
 public:
@@ -44,7 +44,7 @@ public:
     next_losses_.reserve(states.largest() * batch);
   }
 
-  /// Lowers the bounds of suffixes of k agents to what placing the first few of them gives. O(m^(placed+1)·states) time
+  /// Lowers the bounds of suffixes of k agents by placing the first few of them. O(m^(placed+1)·states) time
   /// @pre 0 < placed < k; the table has bounds for k − placed agents
   void lower(std::size_t k, std::size_t placed) {
     k_ = k;
@@ -95,7 +95,7 @@ private:
   }
 
   /// Sets `losses_` of the state of nobody, and `gain_losses_`, for so many ways from `first` on.
-  /// @return what the losses are losses against
+  /// @return the value against which they are losses
   std::int32_t set_losses(std::size_t first, std::size_t count) {
     std::fill(gain_losses_.begin(), gain_losses_.end(), lane{0});
     worth_.resize(count);
@@ -148,7 +148,7 @@ private:
     }
   }
 
-  /// Raises `bounds_` to what these ways allow.
+  /// Raises `bounds_` to the values of these ways.
   void read_back(std::size_t first, std::size_t count, std::int32_t greatest) {
     for (std::size_t begin = 0; begin < count;) {
       std::size_t end = begin + 1;
