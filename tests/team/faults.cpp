@@ -358,8 +358,11 @@ TEST_F(faults, forwarding_what_is_news_makes_a_line_a_team_and_ends) {
       for (auto const& r : line) attackers += r.believes(play_id)->part(r.self()) == does(int(r.self()), attack);
       if (now > at(1000)) ++steps, attackers_wrong += attackers != 1;
     }
-    if (relays) EXPECT_LE(attackers_wrong * 5, steps) << attackers_wrong;
-    if (!relays) EXPECT_GE(attackers_wrong * 3, steps) << attackers_wrong;
+    if (relays) {
+      EXPECT_LE(attackers_wrong * 5, steps) << attackers_wrong;
+    } else {
+      EXPECT_GE(attackers_wrong * 3, steps) << attackers_wrong;
+    }
   }
 }
 

@@ -90,7 +90,8 @@ TEST_F(print, a_reception_says_what_changed_or_why_it_was_refused) {
   EXPECT_EQ(describe(a.receive(says(2, 1, attack), start), shirts{}),
             "accepted; in play agent #2 joined: ({In(#2, normal, attack)}, {})");
   EXPECT_EQ(describe(a.receive(says(2, 1, attack), start)), "stale");
-  EXPECT_EQ(describe(a.receive(says(1, 1, attack), start)), "refused: it says that the receiver sent it");
+  EXPECT_EQ(describe(a.receive(says(1, 1, attack), start)),
+            "refused: it says that the receiver sent it: an echo, or two robots with one id");
   EXPECT_EQ(describe(a.receive(claim_by(9, 3), start), shirts{}),
             "accepted: the claim is obeyed from now on; imposed: ({In(#3, normal, attack)}, {In(#2, normal, attack)})");
 }

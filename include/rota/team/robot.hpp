@@ -184,7 +184,8 @@ public:
     t.expire(now);
     reception<V> r;
     bool const was_active = t.rule.active();
-    auto const mine = t.blind ? std::nullopt : std::optional{stamp_of(t, now)};
+    auto const stamp = stamp_of(t, now);  // before it is frozen, also if it does not answer now
+    auto const mine = t.blind ? std::nullopt : std::optional{stamp};
     auto const heard = t.rule.hear(c, mine, now, options_.max_delay);
     r.claim = heard.outcome;
     if (heard.outcome == claim_outcome::expired) {
@@ -399,7 +400,7 @@ private:
   refusal examine(claim<V> const& c, bool known) const {
     if (c.leader == self_) return own(c.incarnation);
     if (!known) return refusal::stranger;
-    if (c.incarnation.value == 0 || c.incarnation.value >= out_of_reach || c.number >= out_of_reach ||
+    if (c.incarnation.value == 0 || c.number == 0 || c.incarnation.value >= out_of_reach || c.number >= out_of_reach ||
         c.version >= out_of_reach)
       return refusal::number_out_of_reach;
     if (!(c.stamp.id == c.leader)) return refusal::foreign_stamp;
