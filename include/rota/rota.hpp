@@ -29,4 +29,7 @@
 #include <rota/search/reallocate.hpp>
 #include <rota/team/conflict.hpp>
 #include <rota/team/cycle.hpp>
+#include <rota/team/monitors/literal.hpp>
+#include <rota/team/monitors/repetition.hpp>
 #include <rota/team/robot.hpp>
+#include <rota/team/wire.hpp>
