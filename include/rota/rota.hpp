@@ -1,6 +1,6 @@
 #pragma once
 /// @file
-/// The umbrella: everything from core/ to team/. No Eigen, no rapidcheck, no JSON, no networking, no Boost.
+/// Everything from core/ to team/, but for chrono, printing, formatting and hashing, which cost who does not use them. No Boost.
 
 #include <rota/core/config.hpp>  // first, so that it is the first to complain
 

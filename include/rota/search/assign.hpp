@@ -132,7 +132,7 @@ public:
     auto const n = static_cast<std::uint32_t>(agents_);
     if (options_.idle == idling::forbidden) return solve({0, 0}, 0);
     if (!options_.minimise) return solve({0, n}, 0);
-    // Nobody idles who need not. Where all pairs may be, that says how many do; else idling has its price.
+    // First force the least number of idle agents. If forbidden pairs rule that out, charge for idling.
     std::size_t room = 0;
     for (auto const& b : slot_bounds_) room += b.upper;
     auto const must = static_cast<std::uint32_t>(room < agents_ ? agents_ - room : 0);

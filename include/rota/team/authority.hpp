@@ -120,7 +120,7 @@ public:
     return {judge(c, k, mine, now), fresh};
   }
 
-  /// The leader of these claims says that all but number `leads` up to `made` are over. Whether the one in force ended so.
+  /// Takes in that all claims of this leader up to `made` are over, but for `leads`. True if the claim in force ended by it.
   bool hear_over(agent_id leader, rota::incarnation incarnation, std::uint64_t made, std::uint64_t leads, instant now,
                  duration max_delay) {
     known* const k = find(leader);
@@ -219,8 +219,8 @@ private:
     agent_id leader{};
     identity last{};
     claim_stamp<V> stamp{};
-    instant expiry{};            // the earliest end that a copy named, but not before
-    instant earliest{};          // … this: the end that the first copy named less the greatest delay
+    instant expiry{};            // the earliest end that any copy named, but at least `earliest`
+    instant earliest{};          // the end that the first copy named, less the greatest delay
     instant late = never_heard;  // when a copy was last heard after that end
     duration least{};            // the least time left in any copy
     bool answered = false;       // this robot has claimed against it

@@ -90,13 +90,14 @@ struct [[nodiscard]] decision {
 struct robot_options {
   std::uint32_t cycles = 4;           ///< after n subsequent cycles a conflict counts as lasting
   duration pending_age = seconds(1);  ///< see `monitor_options`
+  std::uint32_t yielding = 2;         ///< see `monitor_options`
   duration reign = seconds(2);        ///< how long a claim of this robot holds
   duration max_reign = seconds(2);    ///< claims with more time left are refused; at least `reign`
   duration message_period = milliseconds(100);
   duration change_period{};  ///< if positive, a change of what the robot does is said this soon after the last message
   duration claim_period = milliseconds(100);   ///< how often a leader repeats an unchanged claim
-  duration opening = milliseconds(200);        ///< in the first so long of its reign it repeats it
-  duration opening_period = milliseconds(30);  ///< … this often
+  duration opening = milliseconds(200);        ///< for this long from its beginning, a claim is repeated
+  duration opening_period = milliseconds(30);  ///< … every so often
   duration max_delay = milliseconds(500);      ///< no message is expected to be under way for longer
   duration silence = seconds(2);               ///< an agent that was not heard for longer is deleted
   duration forget = seconds(30);  ///< an agent that was not heard for longer may begin a new life with any number

@@ -79,7 +79,7 @@ public:
     }
     where->names = outline<V>(pt);
     where->executing = true;
-    where->monitor = Monitor(monitor_options{options_.cycles, options_.pending_age});
+    where->monitor = Monitor(monitor_options{options_.cycles, options_.pending_age, options_.yielding});
     where->believed = {};
     where->believed.admit(self_, now);
     changed_ = true;
@@ -334,7 +334,7 @@ private:
     if (now >= t.frozen_until) t.stamp = {options_.confidence, self_};
     return t.stamp;
   }
-  /// For how long nothing was heard of b; for too long, if it has gone since the leader deliberated.
+  /// Time since b was last heard; just over `silence` if b has left or was deleted since the leader deliberated.
   [[nodiscard]] duration age_of(track const& t, agent_id b, instant now) const {
     if (b == self_) return {};
     return t.believed.takes_part(b) ? now - t.believed.heard(b) : options_.silence + nanoseconds(1);
@@ -366,7 +366,7 @@ private:
     return r;
   }
 
-  /// Numbers from here on are no numbers of ours: a flipped bit, or a forgery that nothing genuine would ever exceed.
+  /// No genuine number reaches this: greater ones are flipped bits, or forgeries that would mute their victim.
   static constexpr std::uint64_t out_of_reach = std::uint64_t{1} << 62;
   [[nodiscard]] static bool jumps(std::uint64_t from, std::uint64_t to) { return to > from && to - from > most_jump; }
   /// A message from the robot's own id: an echo, or a sign that its incarnation was not obtained as it should.

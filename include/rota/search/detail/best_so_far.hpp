@@ -87,7 +87,7 @@ private:
   bool proved_ = false;                    // the best allocation is the canonical one of its plan
   std::int64_t bound_ = dense::no_value;   // no valid allocation of a plan searched has a greater objective
   std::int64_t doubt_ = dense::no_value;   // the same of those plans that were not searched to the end
-  std::int64_t before_ = dense::no_value;  // the same of those before the best: one as good would be preferred
+  std::int64_t before_ = dense::no_value;  // the same of those before the winner, where a tie would win
   small_vector<plan_refusal<V>, 2> refusals_;
   std::optional<utility_refusal<V>> ignored_{};
   std::optional<bound_lie<V>> lie_{};

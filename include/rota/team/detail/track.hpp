@@ -20,8 +20,8 @@ struct track {
   belief<V> believed;
   Monitor monitor;
   authority<V> rule;
-  claim_stamp<V> stamp{};  // of this robot's claims; computed once for as long as a claim that it knows of can live,
-  instant frozen_until{(std::numeric_limits<std::int64_t>::min)()};  // which is until here
+  claim_stamp<V> stamp{};  // of this robot's claims; not computed anew before `frozen_until`
+  instant frozen_until{(std::numeric_limits<std::int64_t>::min)()};  // the end of the last claim that it knows of
   bool executing = false;
   bool lapsed = false;  // a reign has ended since the last deliberation
   bool blind = false;   // the last deliberation found no valid allocation: it neither counts cycles, claims nor answers
@@ -59,8 +59,8 @@ struct track {
     return total;
   }
 
-  /// Counts in the leader and whom its claim is about, as long as they have lived by what it says. Only the leader has given
-  /// a sign of life. @return the allocation of the claim without the others @pre as many ages as atoms
+  /// Admits the leader, and each claimed agent that the leader has heard within `silence`. Only the leader itself has given a
+  /// sign of life. @return the claim's allocation, without agents that do not take part @pre as many ages as atoms
   allocation_atoms<V> admit_all(claim<V> const& c, instant now, duration silence) {
     believed.admit(c.leader, now);
     small_vector<in<V>, 8> alive;

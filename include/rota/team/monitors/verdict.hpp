@@ -12,7 +12,7 @@ namespace rota {
 /// When a monitor fires, and what it forgets.
 struct monitor_options {
   std::uint32_t cycles = 4;  ///< n of the paper: after so many subsequent cycles the conflict counts as lasting
-  duration pending_age = seconds(1);  ///< what no deliberation has answered for so long is forgotten, counts included
+  duration pending_age = seconds(1);  ///< pending changes older than this are forgotten, and counts reset
   std::uint32_t yielding = 2;         ///< `insistence_monitor`: so many more, if the sender yields between
 
   friend bool operator==(monitor_options const&, monitor_options const&) = default;
