@@ -15,6 +15,13 @@ using explorer::setting;
 
 struct exploration : playground {};
 
+/// Sanitizers and builds without optimisation visit fewer.
+#ifdef __OPTIMIZE__
+constexpr std::uint64_t states_of_a_setting = 20000, walks_of_a_setting = 100;
+#else
+constexpr std::uint64_t states_of_a_setting = 1000, walks_of_a_setting = 10;
+#endif
+
 /// ROTA_EXPLORE multiplies the states that are visited.
 std::uint64_t times() {
   char const* const text = std::getenv("ROTA_EXPLORE");
@@ -39,7 +46,7 @@ TEST_F(exploration, no_short_interleaving_breaks_anything) {
   std::uint64_t states = 0;
   for (auto const& s : settings()) {
     search x(s, *this);
-    auto const f = x.run(20000 * times());
+    auto const f = x.run(states_of_a_setting * times());
     if (f) {
       ADD_FAILURE() << s.name << '\n' << x.script(*f);
     }
@@ -53,7 +60,7 @@ TEST_F(exploration, no_short_interleaving_breaks_anything) {
 TEST_F(exploration, no_long_walk_breaks_anything) {
   for (auto const& s : settings()) {
     search x(s, *this);
-    auto const f = x.walk(100 * times(), 150, 1);
+    auto const f = x.walk(walks_of_a_setting * times(), 150, 1);
     if (f) {
       ADD_FAILURE() << s.name << '\n' << x.script(*f);
     }
