@@ -20,7 +20,7 @@ std::uint64_t allocations(F f) {
   return rota_test::allocation_count() - before;
 }
 
-void* volatile sink;
+void* volatile kept_alive;
 
 struct alignas(128) wide {
   std::byte bytes[128];
@@ -29,42 +29,42 @@ struct alignas(128) wide {
 TEST(allocation_counter, sees_every_form_of_new) {
   EXPECT_EQ(allocations([] {
               auto p = std::make_unique<int>(1);
-              sink = p.get();
+              kept_alive = p.get();
             }),
             1u);
   EXPECT_EQ(allocations([] {
               auto p = std::make_unique<int[]>(7);
-              sink = p.get();
+              kept_alive = p.get();
             }),
             1u);
   EXPECT_EQ(allocations([] {
               auto p = std::make_unique<wide>();
-              sink = p.get();
+              kept_alive = p.get();
             }),
             1u);
   EXPECT_EQ(allocations([] {
               auto p = std::make_unique<wide[]>(3);
-              sink = p.get();
+              kept_alive = p.get();
             }),
             1u);
   EXPECT_EQ(allocations([] {
               std::unique_ptr<int> p{new (std::nothrow) int};
-              sink = p.get();
+              kept_alive = p.get();
             }),
             1u);
   EXPECT_EQ(allocations([] {
               std::unique_ptr<int[]> p{new (std::nothrow) int[3]};
-              sink = p.get();
+              kept_alive = p.get();
             }),
             1u);
   EXPECT_EQ(allocations([] {
               std::unique_ptr<wide> p{new (std::nothrow) wide};
-              sink = p.get();
+              kept_alive = p.get();
             }),
             1u);
   EXPECT_EQ(allocations([] {
               std::unique_ptr<wide[]> p{new (std::nothrow) wide[2]};
-              sink = p.get();
+              kept_alive = p.get();
             }),
             1u);
 }
@@ -89,7 +89,7 @@ TEST(allocation_counter, loses_no_count_between_threads) {
   auto const work = [] {
     for (int i = 0; i < 1000; ++i) {
       auto p = std::make_unique<int>(i);
-      sink = p.get();
+      kept_alive = p.get();
     }
   };
   {
