@@ -126,7 +126,8 @@ public:
   /// Takes in a message. A refused or stale message changes nothing.
   reception<V> receive(message<V> const& m, instant now) {
     if (auto const* plan = std::get_if<plan_message<V>>(&m)) return receive(*plan, now);
-    return receive(*std::get_if<claim<V>>(&m), now);
+    if (auto const* bid = std::get_if<claim<V>>(&m)) return receive(*bid, now);
+    return {};
   }
 
   /// Takes in what a sender says about itself; it is trusted about nobody else. For each executed type this is one of the

@@ -161,7 +161,8 @@ template <vocabulary V>
 template <vocabulary V>
 [[nodiscard]] result<std::size_t, wire_fault> encode(message<V> const& m, std::span<std::byte> out) noexcept {
   if (auto const* plan = std::get_if<plan_message<V>>(&m)) return encode(*plan, out);
-  return encode(*std::get_if<claim<V>>(&m), out);
+  if (auto const* bid = std::get_if<claim<V>>(&m)) return encode(*bid, out);
+  return refused{wire_fault::foreign};
 }
 
 namespace detail {
@@ -230,6 +231,7 @@ template <vocabulary V>
   if ((first & 0x0f) >> 1 != wire_version) return refused{wire_fault::version};
   if (bytes.size() <= tail) return refused{wire_fault::cut_short};
   detail::byte_reader r(bytes.subspan(1, bytes.size() - 1 - tail));
+  plan_message<V> plan;
   message<V> m;
   if ((first & 1) == detail::wire_claim) {
     small_vector<in<V>, 8> atoms;
@@ -238,7 +240,8 @@ template <vocabulary V>
     if (r.wrong() == fault::none) c.atoms = allocation_atoms<V>::from_ascending(std::move(atoms));
     m = std::move(c);
   } else {
-    detail::read<V>(r, *std::get_if<plan_message<V>>(&m));
+    detail::read<V>(r, plan);
+    m = std::move(plan);
   }
   detail::byte_reader sum(bytes.last(tail));
   // A message that lost its end may fail in many ways, the checksum among them: what was read says which.
