@@ -139,6 +139,7 @@ public:
   reception<V> receive(plan_message<V> const& m, instant now) {
     auto* const sender = peers_.find(m.sender);
     if (auto const reason = examine(m, sender, now); reason != refusal::none) return dropped(reason);
+    ROTA_ASSERT(sender != nullptr);  // or it would have been a stranger
     bool const new_life = forgotten(*sender, now);
     if (!new_life && m.number <= sender->last) return dropped();
     synchronise(now);
