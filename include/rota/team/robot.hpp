@@ -180,6 +180,7 @@ public:
   reception<V> receive(claim<V> const& c, instant now) {
     auto const* const sender = peers_.find(c.leader);
     if (auto const reason = examine(c, sender != nullptr); reason != refusal::none) return dropped(reason);
+    ROTA_ASSERT(sender != nullptr);  // or it would have been a stranger
     if (c.incarnation < sender->last.incarnation) return dropped();
     synchronise(now);
     track& t = *executed(c.type);
