@@ -71,7 +71,7 @@ std::string explain(plan_refusal<vocabulary> const& r, question const& q) {
   auto const task = [&] { return q.where.name(p, r.task); };
   auto const agents = [](std::size_t n) { return counted(n, "agent"); };
   auto const why = [&]() -> std::string {
-    switch (r.why) {
+    switch (r.reason) {
     case no_plan_reason::contradictory_cardinalities:
       return "its tasks sum to " + agents(r.count) + ", which its team size " + interval(r.bounds) + " never admits";
     case no_plan_reason::too_few_agents:
@@ -154,7 +154,7 @@ named_answer named(question const& q, solution<vocabulary> const& s) {
   out.plan = q.where.name(q.where.plan(s.plan));
   out.utility = s.utility;
   if (q.costs) out.cost = total_of(q, s.atoms);
-  out.optimal = s.optimal;
+  out.optimal = s.proved;
   out.gap = s.gap;
   for (atom const& x : s.atoms) out.assignment.emplace_back(q.who.name(x.agent), q.task(x));
   out.idle = idle_agents(q, s.atoms);
@@ -223,12 +223,12 @@ std::string as_text(question const& q, solution<vocabulary> const& s, validity_r
                                 : ""));
   if (q.costs)
     line("cost     " + number(total_of(q, s.atoms)) + " for " + counted(s.atoms.size(), "agent") + " with a task" +
-         (s.optimal                           ? ", proved optimal"
+         (s.proved                            ? ", proved optimal"
           : s.gap < q.costs->one_more_agent() ? ", at most " + number(s.gap) + " above the least"
                                               : "; perhaps more agents can have one"));
   else
     line("utility  " + number(s.utility) +
-         (s.optimal ? ", proved optimal" : ", at most " + number(s.gap) + " below the best"));
+         (s.proved ? ", proved optimal" : ", at most " + number(s.gap) + " below the best"));
   if (s.runner_up) {
     auto const& next = *s.runner_up;
     line("next     " + q.where.name(q.where.plan(next.plan)) + " with " +

@@ -56,7 +56,7 @@ TEST(eigen, a_matrix_is_assigned_whatever_its_storage_and_scalar) {
   ASSERT_TRUE(best);
   EXPECT_EQ(best->tasks, (std::vector<std::size_t>{1, 0}));
   EXPECT_EQ(best->total, 2);
-  EXPECT_EQ(eigen::assign(costs, std::span(bounds).first(2)).error().why, assign_fault::sizes_differ);
+  EXPECT_EQ(eigen::assign(costs, std::span(bounds).first(2)).error().reason, assign_fault::sizes_differ);
   EXPECT_EQ(eigen::assign(costs, bounds, {.forbidden = 9}).error(), (assign_refusal{assign_fault::not_a_number, 0, 2}));
 }
 

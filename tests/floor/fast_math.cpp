@@ -20,7 +20,7 @@ int main() {
   for (double const entry : {nan, infinite}) {
     auto const made = rota::assign(std::array{1.0, entry}, {rota::cardinality{0, 1}, rota::cardinality{0, 1}});
     ok = ok && !made &&
-         made.error().why ==
+         made.error().reason ==
              (std::bit_cast<std::uint64_t>(entry) == infinity ? assign_fault::infinite : assign_fault::not_a_number);
   }
 

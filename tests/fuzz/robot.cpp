@@ -187,8 +187,8 @@ private:
   /// A number near x. A hostile message has one that no genuine sender says.
   std::uint64_t near(std::uint64_t x, bool grows) {
     switch (hostile_ ? in_.below(16) : 0) {
-    case 10: return x + robot::most_jump;
-    case 11: return x + robot::most_jump + 2;
+    case 10: return x + rota::most_jump;
+    case 11: return x + rota::most_jump + 2;
     case 12: return std::uint64_t{1} << 62;
     case 13: return (std::numeric_limits<std::uint64_t>::max)();
     case 14: return 0;

@@ -139,7 +139,7 @@ RC_GTEST_PROP(assign, is_what_enumeration_finds_best_and_its_prices_prove_it, ()
   RC_CLASSIFY(got && q.options.minimise, "minimised");
   RC_CLASSIFY(got && got->proof.idle_counts > 0, "idling priced");
   if (!got) {
-    auto const why = got.error().why;
+    auto const why = got.error().reason;
     RC_ASSERT(why == assign_fault::task_short || why == assign_fault::agent_stuck);
     RC_ASSERT((why == assign_fault::task_short ? got.error().task < q.bounds.size() : got.error().agent < q.agents));
     return;
@@ -182,7 +182,7 @@ TEST(assign, forbidden_pairs_may_leave_agents_idle_at_a_price) {
   EXPECT_EQ(rota::proven_bound(costs, *some, options), 3);
   auto none = options;
   none.idle = rota::idling::forbidden;
-  EXPECT_EQ(assign(costs, {{0, 1}, {0, 1}}, none).error().why, assign_fault::agent_stuck);
+  EXPECT_EQ(assign(costs, {{0, 1}, {0, 1}}, none).error().reason, assign_fault::agent_stuck);
 }
 
 TEST(assign, a_false_proof_does_not_reach_the_total) {
@@ -201,7 +201,7 @@ TEST(assign, every_fault_has_words) {
   std::set<std::string> words, sentences, reasons;
   for (int i = 0; i <= static_cast<int>(assign_fault::agent_stuck); ++i) {
     rota::assign_refusal const r{static_cast<assign_fault>(i), 1, 2};
-    EXPECT_TRUE(words.insert(to_string(r.why)).second);
+    EXPECT_TRUE(words.insert(to_string(r.reason)).second);
     EXPECT_TRUE(sentences.insert(describe(r)).second);
     EXPECT_TRUE(reasons.insert(reason_of(r)).second);
   }
@@ -215,8 +215,8 @@ TEST(assign, what_is_no_question_is_refused_with_its_place) {
     return assign(m, b, o).error();
   };
   using refusal = rota::assign_refusal;
-  EXPECT_EQ(why({1, 2, 3}, {{}, {}}).why, assign_fault::sizes_differ);
-  EXPECT_EQ(why({1}, {}).why, assign_fault::sizes_differ);
+  EXPECT_EQ(why({1, 2, 3}, {{}, {}}).reason, assign_fault::sizes_differ);
+  EXPECT_EQ(why({1}, {}).reason, assign_fault::sizes_differ);
   EXPECT_EQ(why({1, 2}, {{}, {3, 1}}), (refusal{assign_fault::empty_bounds, 0, 1}));
   EXPECT_EQ(why({1, 2, 3, std::nan("")}, {{}, {}}), (refusal{assign_fault::not_a_number, 1, 1}));
   EXPECT_EQ(why({1, infinity}, {{}, {}}), (refusal{assign_fault::infinite, 0, 1}));
@@ -227,7 +227,7 @@ TEST(assign, what_is_no_question_is_refused_with_its_place) {
   EXPECT_TRUE(assign(std::array{1.0, 2.0, 3e9, 3.0}, {{}, {}}));
   EXPECT_EQ(why({1, 2, 1e300, 3}, {{}, {}}), (refusal{assign_fault::too_large, 1, 0}));
   EXPECT_EQ(why({1, 2}, {{3, 4}, {}}), (refusal{assign_fault::task_short, 0, 0}));
-  EXPECT_EQ(why({1, 2, 3, 4}, {{0, 1}, {0, 0}}, {.idle = rota::idling::forbidden}).why, assign_fault::agent_stuck);
+  EXPECT_EQ(why({1, 2, 3, 4}, {{0, 1}, {0, 0}}, {.idle = rota::idling::forbidden}).reason, assign_fault::agent_stuck);
   auto const nobody = assign(std::span<double const>{}, {{0, 1}});
   ASSERT_TRUE(nobody);
   EXPECT_TRUE(nobody->tasks.empty());

@@ -58,7 +58,7 @@ TEST(best_allocation, reports_a_lying_bound_with_the_partial_allocation) {
       [](auto, view_t c) { return odd_tasks(c); }, [](auto, view_t, rest_t rest) { return rest.empty() ? 3.0 : 0.5; }};
   auto const s = team_of(5).solve(d, {.audit = true});
   ASSERT_TRUE(s.lie);
-  EXPECT_FALSE(s.optimal);
+  EXPECT_FALSE(s.proved);
   EXPECT_EQ(s.gap, std::numeric_limits<double>::infinity());
   EXPECT_EQ(s.lie->bound, 0.5);
   EXPECT_GE(s.lie->value, 1.0);
@@ -80,11 +80,11 @@ TEST(reallocate, passes_on_what_a_search_complains_of) {
   };
   auto const some = ask();
   EXPECT_TRUE(some.plan);
-  EXPECT_FALSE(some.optimal);
+  EXPECT_FALSE(some.proved);
   ASSERT_TRUE(some.lie);
   EXPECT_EQ(some.lie->bound, 0.5);
   ASSERT_TRUE(some.ignored);
-  EXPECT_EQ(some.ignored->why, rota::utility_fault::not_a_number);
+  EXPECT_EQ(some.ignored->reason, rota::utility_fault::not_a_number);
   d.utility = rota::general_utility<names, rota::no_beliefs>{[](auto, view_t) { return -1.0; },
                                                              [](auto, view_t, rest_t) { return -2.0; }};
   auto const none = ask();
@@ -101,11 +101,11 @@ TEST(best_allocation, says_how_far_it_may_be_from_the_optimum) {
   for (auto& t : d.tasks) t.bounds = {0, 4};
   team_of team(7);
   auto const best = team.solve(d, {.nodes = 1u << 20});
-  EXPECT_TRUE(best.optimal);
+  EXPECT_TRUE(best.proved);
   EXPECT_EQ(best.utility, 3.0);
   EXPECT_EQ(best.gap, 0.0);
   auto const some = team.solve(d, {.nodes = 7});
-  EXPECT_FALSE(some.optimal);
+  EXPECT_FALSE(some.proved);
   EXPECT_EQ(some.gap, 3.0 - some.utility);
 }
 
@@ -120,7 +120,7 @@ TEST(best_allocation, that_is_stopped_at_once_has_an_answer_all_the_same) {
   for (auto const& budget : {none, rota::search_budget{.nodes = 0}}) {
     auto const s = team.solve(d, budget);
     EXPECT_EQ(s.work.nodes, 0u);
-    EXPECT_FALSE(s.optimal);
+    EXPECT_FALSE(s.proved);
     EXPECT_EQ(s.gap, 3.0 - s.utility);
     EXPECT_EQ(odd_tasks(s.atoms.atoms()), s.utility);
   }
@@ -149,7 +149,7 @@ TEST(best_allocation, leaves_what_an_outlook_calls_impossible) {
   auto const blind = team.solve(d);
   d.outlook = [=](auto, view_t c, rest_t) { return crowd(c) ? rota::possibility::perhaps : rota::possibility::no; };
   auto const foreseeing = team.solve(d);
-  EXPECT_TRUE(blind.optimal && foreseeing.optimal);
+  EXPECT_TRUE(blind.proved && foreseeing.proved);
   EXPECT_EQ(blind.utility, 4.0);
   EXPECT_EQ(foreseeing.atoms, blind.atoms);
   EXPECT_LT(foreseeing.work.leaves * 10, blind.work.leaves);
@@ -201,7 +201,7 @@ TEST(best_allocation, a_utility_that_throws_leaves_the_workspace_usable) {
   team_of team(4);
   auto const s = team.solve(d);
   ASSERT_TRUE(s.ignored);
-  EXPECT_EQ(s.ignored->why, rota::utility_fault::threw);
+  EXPECT_EQ(s.ignored->reason, rota::utility_fault::threw);
   EXPECT_TRUE(s.ignored->other);
   EXPECT_EQ(s.utility, 3.0) << "all but the first agent";
   EXPECT_EQ(s.atoms.begin()->agent, names::agent(1));

@@ -101,7 +101,7 @@ TEST(pairwise_plans, solver_and_tree_agree) {
     }
     ++found;
     faulty += one->ignored.has_value();
-    RC_ASSERT(one->optimal && other->optimal);
+    RC_ASSERT(one->proved && other->proved);
     RC_ASSERT(one->objective == other->objective);
     RC_ASSERT(one->atoms == other->atoms);
     RC_ASSERT(one->ignored == other->ignored);
@@ -119,7 +119,7 @@ TEST(pairwise_plans, a_team_of_fourteen_is_proved_within_the_usual_budget) {
   rota::workspace work;
   auto const found = best_allocation(rota::problem{type, members}, work);
   ASSERT_TRUE(found);
-  EXPECT_TRUE(found->optimal);
+  EXPECT_TRUE(found->proved);
   EXPECT_EQ(found->gap, 0);
 }
 
@@ -141,18 +141,18 @@ TEST(pairwise_plans, any_budget_leaves_a_valid_allocation_and_a_gap) {
       RC_ASSERT(!some);
       return;
     }
-    RC_ASSERT(best->optimal);
+    RC_ASSERT(best->proved);
     if (!some) {
       RC_ASSERT(!some.error().proved());
       return;
     }
-    short_of_it += !some->optimal;
+    short_of_it += !some->proved;
     RC_ASSERT(validate(ask, type.plans()[0], some->atoms, rota::plan_phase::entering).valid());
     RC_ASSERT(some->utility <= best->utility && some->utility + some->gap >= best->utility);
-    RC_ASSERT(!some->optimal || some->atoms == best->atoms);
+    RC_ASSERT(!some->proved || some->atoms == best->atoms);
     // With enough budget the used workspace finds the same as a fresh one.
     auto again = best_allocation(ask, spent);
-    RC_ASSERT(again && again->atoms == best->atoms && again->optimal);
+    RC_ASSERT(again && again->atoms == best->atoms && again->proved);
   }));
   EXPECT_GE(short_of_it, 100);
 }
@@ -213,7 +213,7 @@ TEST(pairwise_plans, what_is_no_utility_names_both_agents) {
     auto const none = best_allocation(rota::problem{type, members}, work);
     ASSERT_FALSE(none);
     ASSERT_EQ(none.error().plans.size(), 1u);
-    EXPECT_EQ(none.error().plans[0].why, rota::no_plan_reason::utility_refused);
+    EXPECT_EQ(none.error().plans[0].reason, rota::no_plan_reason::utility_refused);
     EXPECT_EQ(none.error().plans[0].fault, rota::utility_fault::positive_infinity);
   }
   world.list[0] = {names::task(0), {0, 2}, {}};
@@ -223,7 +223,7 @@ TEST(pairwise_plans, what_is_no_utility_names_both_agents) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->atoms.size(), 1u);
     ASSERT_TRUE(found->ignored && found->ignored->atom && found->ignored->other);
-    EXPECT_EQ(found->ignored->why, rota::utility_fault::positive_infinity);
+    EXPECT_EQ(found->ignored->reason, rota::utility_fault::positive_infinity);
     EXPECT_EQ(found->ignored->atom->agent, names::agent(0));
     EXPECT_EQ(found->ignored->other->agent, names::agent(1));
   }
@@ -241,7 +241,7 @@ TEST(pairwise_plans, beyond_the_limits_of_the_pairwise_solver) {
   little.nodes = 10000;
   auto const found = best_allocation(ask, work, little);
   ASSERT_TRUE(found);
-  EXPECT_FALSE(found->optimal);
+  EXPECT_FALSE(found->proved);
   EXPECT_TRUE(validate(ask, type.plans()[0], found->atoms, rota::plan_phase::entering).valid());
 
   drawn great(d, 3, 2, 1, 0);
@@ -252,7 +252,7 @@ TEST(pairwise_plans, beyond_the_limits_of_the_pairwise_solver) {
   auto const few = team_of(3);
   auto const best = best_allocation(rota::problem{of_great, few}, work);
   ASSERT_TRUE(best);
-  EXPECT_TRUE(best->optimal);
+  EXPECT_TRUE(best->proved);
   EXPECT_EQ(best->utility, 3 * rota::max_utility + 12);
   EXPECT_EQ(best->atoms.atoms()[1].task, names::task(1)) << "the first two apart, the lexicographically first so";
 

@@ -43,7 +43,7 @@ TEST(optimal, is_the_canonical_optimum_or_not_called_so) {
   rota::problem const problem{q.type, q.team, rota::idling::forbidden};
   rota::workspace plenty;
   auto const best = best_allocation(problem, plenty).value();
-  EXPECT_TRUE(best.optimal);
+  EXPECT_TRUE(best.proved);
   EXPECT_EQ(best.gap, 0);
   rota::search_budget none;
   none.relaxations = 0;
@@ -53,10 +53,10 @@ TEST(optimal, is_the_canonical_optimum_or_not_called_so) {
     EXPECT_TRUE(validate(problem, q.type.plans()[0], hurried.atoms).valid());
     EXPECT_LE(hurried.utility, best.utility);
     EXPECT_GE(hurried.utility + hurried.gap, best.utility);
-    EXPECT_TRUE(!hurried.optimal || hurried.atoms == best.atoms) << round;
+    EXPECT_TRUE(!hurried.proved || hurried.atoms == best.atoms) << round;
   }
   auto const after = best_allocation(problem, fresh).value();
-  EXPECT_TRUE(after.optimal);
+  EXPECT_TRUE(after.proved);
   EXPECT_EQ(after.atoms, best.atoms);
 }
 
@@ -79,7 +79,7 @@ TEST(optimal, is_the_same_under_every_budget_and_history) {
     rota::workspace fresh;
     auto const best = best_allocation(problem, fresh);
     if (!best) continue;
-    ASSERT_TRUE(best->optimal);
+    ASSERT_TRUE(best->proved);
     for (std::uint64_t const nodes : {0u, 3u, 30u, 1u << 20})
       for (std::uint64_t const relaxations : {std::uint64_t{0}, std::uint64_t{20}, ~std::uint64_t{0}}) {
         rota::search_budget const budget{.nodes = nodes, .relaxations = relaxations};
@@ -87,13 +87,13 @@ TEST(optimal, is_the_same_under_every_budget_and_history) {
         if (!some) continue;
         EXPECT_LE(some->objective, best->objective) << seed;
         EXPECT_GE(rota::to_double(some->objective) + some->gap, rota::to_double(best->objective)) << seed;
-        if (some->optimal) {
+        if (some->proved) {
           EXPECT_EQ(some->plan, best->plan) << seed;
           EXPECT_EQ(some->atoms, best->atoms) << seed;
           EXPECT_EQ(some->gap, 0) << seed;
         }
-        unproved += !some->optimal;
-        equally_good += !some->optimal && some->objective == best->objective && some->atoms != best->atoms;
+        unproved += !some->proved;
+        equally_good += !some->proved && some->objective == best->objective && some->atoms != best->atoms;
       }
   }
   EXPECT_GE(unproved, 300);
@@ -118,7 +118,7 @@ TEST(too_great, sums_of_parts_are_refused_as_such) {
     auto const none = best_allocation(problem, work);
     ASSERT_FALSE(none) << parts;
     EXPECT_FALSE(none.error().proved());
-    EXPECT_EQ(none.error().plans[0].why, rota::no_plan_reason::utilities_too_great);
+    EXPECT_EQ(none.error().plans[0].reason, rota::no_plan_reason::utilities_too_great);
     EXPECT_EQ(none.error().plans[0].agent, names::agent(0));
     EXPECT_FALSE(none.error().ignored) << parts << ": every term is a utility";
     auto const kept = reallocate(problem.running(pair), {}, work);
@@ -151,10 +151,10 @@ TEST(too_great, totals_that_are_no_utility_are_left_out) {
     EXPECT_FALSE(validate(problem, q.type.plans()[0], pair).valid());
     auto const idle = best_allocation(problem, work);
     ASSERT_TRUE(idle);
-    EXPECT_TRUE(idle->optimal);
+    EXPECT_TRUE(idle->proved);
     EXPECT_TRUE(idle->atoms.empty());
     ASSERT_TRUE(idle->ignored);
-    EXPECT_EQ(idle->ignored->why, rota::utility_fault::out_of_range);
+    EXPECT_EQ(idle->ignored->reason, rota::utility_fault::out_of_range);
   }
 }
 
@@ -176,7 +176,7 @@ TEST(audit, is_off_by_default_and_finds_a_bound_that_hides_the_optimum) {
   EXPECT_EQ(deceived.utility, 1);
   EXPECT_FALSE(deceived.lie);
   auto const audited = best_allocation(problem, work, {.audit = true}).value();
-  EXPECT_FALSE(audited.optimal);
+  EXPECT_FALSE(audited.proved);
   ASSERT_TRUE(audited.lie);
   EXPECT_EQ(audited.lie->bound, 0.5);
   EXPECT_EQ(audited.lie->value, 5);

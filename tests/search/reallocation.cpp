@@ -21,7 +21,7 @@ using reason = rota::reallocation_reason;
 /// What should happen, by the definition, on plain data.
 struct expectation {
   facts atoms;
-  reason why{};
+  rota::reallocation_reason reason{};
 };
 
 bool executes(facts const& c, raw_plan const& p) {
@@ -95,9 +95,9 @@ TEST(reallocate, keeps_what_is_valid_and_good_enough) {
       auto const before = to_atoms(current);
       auto const ask = problem.running(before);
       auto const got = reallocate(ask, h, work);
-      RC_ASSERT(got.reason == expected.why);
+      RC_ASSERT(got.reason == expected.reason);
       RC_ASSERT(to_facts(got.atoms) == expected.atoms);
-      RC_ASSERT(got.optimal);
+      RC_ASSERT(got.proved);
       // It says why: what the running allocation violates, and why no plan has another.
       auto const* const ran = reading::find_plan(raw, current.empty() ? -1 : current.begin()->plan);
       bool const broken = !current.empty() && (ran == nullptr || !reading::judge(raw, *ran, current, true).valid());
@@ -198,16 +198,16 @@ TEST(reallocate, a_spent_budget_keeps_a_valid_allocation_and_says_so) {
   rota::problem const problem{b.type, b.team, b.beliefs};
   rota::workspace work;
   auto const best = reallocate(problem, {}, work);
-  ASSERT_TRUE(best.optimal);
+  ASSERT_TRUE(best.proved);
   auto const kept = reallocate(problem.running(best.atoms), {}, work, {10});
   EXPECT_EQ(kept.reason, reason::kept_unproved);
-  EXPECT_FALSE(kept.optimal);
+  EXPECT_FALSE(kept.proved);
   EXPECT_TRUE(kept.event.empty());
   EXPECT_LE(kept.work.nodes, 10u);
   atoms_t const invalid{{names::agent(0), names::plan(1), names::task(0)}};
   auto const replaced = reallocate(problem.running(invalid), {}, work, {0});
   EXPECT_EQ(replaced.reason, reason::current_invalid);
-  EXPECT_FALSE(replaced.optimal);
+  EXPECT_FALSE(replaced.proved);
   EXPECT_TRUE(replaced.plan);
   raw.plans[0].pre = truth::never;
   built const c(raw);

@@ -52,23 +52,23 @@ TEST(no_allocation, cardinalities_that_contradict_the_team_size) {
   fixture f(5, {{0, 2, 2}, {1, 2, 3}});
   f.plan().team_max = 3;
   auto const r = f.refusal();
-  EXPECT_EQ(r.why, reason::contradictory_cardinalities);
+  EXPECT_EQ(r.reason, reason::contradictory_cardinalities);
   EXPECT_EQ(r.count, 4u);
   f.plan().team_max = unlimited;
   f.plan().team_min = 6;
-  EXPECT_EQ(f.refusal().why, reason::contradictory_cardinalities);
+  EXPECT_EQ(f.refusal().reason, reason::contradictory_cardinalities);
   EXPECT_EQ(f.refusal().count, 5u);
 }
 
 TEST(no_allocation, too_few_and_too_many_agents) {
   fixture f(3, {{0, 2, 2}, {1, 2, 2}});
-  EXPECT_EQ(f.refusal().why, reason::too_few_agents);
+  EXPECT_EQ(f.refusal().reason, reason::too_few_agents);
   EXPECT_EQ(f.refusal().count, 3u);
   EXPECT_EQ(f.refusal().bounds.lower(), 4u);
   fixture g(5, {{0, 0, 2}, {1, 0, 2}});
   EXPECT_TRUE(g.solve());
   g.raw.idle = false;
-  EXPECT_EQ(g.refusal().why, reason::too_many_agents);
+  EXPECT_EQ(g.refusal().reason, reason::too_many_agents);
   EXPECT_EQ(g.refusal().bounds.upper(), 4u);
 }
 
@@ -77,14 +77,14 @@ TEST(no_allocation, forbidden_pairs) {
   f.u(0, 1).reset();
   f.raw.forbidden[2][1] = true;
   auto const r = f.refusal();
-  EXPECT_EQ(r.why, reason::task_short);
+  EXPECT_EQ(r.reason, reason::task_short);
   EXPECT_EQ(r.task, names::task(1));
   EXPECT_EQ(r.count, 1u);
 
   fixture g(3, {{0, 0, 3}});
   g.raw.idle = false;
   g.u(1, 0).reset();
-  EXPECT_EQ(g.refusal().why, reason::agent_without_task);
+  EXPECT_EQ(g.refusal().reason, reason::agent_without_task);
   EXPECT_EQ(g.refusal().agent, names::agent(1));
 
   // Hall's condition fails: agents 0 and 1 may do task 0 only, which takes one.
@@ -92,37 +92,37 @@ TEST(no_allocation, forbidden_pairs) {
   h.raw.idle = false;
   h.u(0, 1).reset();
   h.u(1, 1).reset();
-  EXPECT_EQ(h.refusal().why, reason::pairs_contradict);
+  EXPECT_EQ(h.refusal().reason, reason::pairs_contradict);
   // And its mirror image: tasks 0 and 1 both need agent 0.
   fixture k(3, {{0, 1, 1}, {1, 1, 1}, {2, 0, 3}});
   for (std::size_t a : {1u, 2u}) k.u(a, 0).reset(), k.u(a, 1).reset();
-  EXPECT_EQ(k.refusal().why, reason::pairs_contradict);
+  EXPECT_EQ(k.refusal().reason, reason::pairs_contradict);
 }
 
 TEST(no_allocation, a_precondition_that_never_holds_and_negative_utility) {
   fixture f(3, {{0, 1, 3}});
   f.plan().pre = truth::never;
-  EXPECT_EQ(f.refusal().why, reason::precondition_never_holds);
+  EXPECT_EQ(f.refusal().reason, reason::precondition_never_holds);
   fixture g(3, {{0, 2, 3}});
   for (std::size_t a = 0; a < 3; ++a) g.u(a, 0) = -1.0 - static_cast<double>(a);
-  EXPECT_EQ(g.refusal().why, reason::negative_utility);
+  EXPECT_EQ(g.refusal().reason, reason::negative_utility);
   EXPECT_EQ(g.refusal().value, -3.0);
 }
 
 TEST(no_allocation, a_budget_that_is_spent_is_no_proof) {
   fixture f(6, {{0, 1, 3}, {1, 1, 3}});
   f.plan().pre = truth::never;
-  EXPECT_EQ(f.refusal({5}).why, reason::search_incomplete);
+  EXPECT_EQ(f.refusal({5}).reason, reason::search_incomplete);
   built const b(f.raw);
   EXPECT_FALSE(best_allocation(rota::problem{b.type, b.team, b.beliefs}, f.work, {5}).error().proved());
-  EXPECT_EQ(f.refusal({0}).why, reason::search_incomplete);
+  EXPECT_EQ(f.refusal({0}).reason, reason::search_incomplete);
 }
 
 TEST(no_allocation, what_is_no_utility_is_named) {
   fixture f(2, {{0, 2, 2}});
   f.u(1, 0) = std::nan("");
   auto const r = f.refusal();
-  EXPECT_EQ(r.why, reason::utility_refused);
+  EXPECT_EQ(r.reason, reason::utility_refused);
   EXPECT_EQ(r.fault, rota::utility_fault::not_a_number);
   EXPECT_EQ(r.agent, names::agent(1));
   EXPECT_EQ(r.task, names::task(0));
@@ -132,12 +132,12 @@ TEST(no_allocation, what_is_no_utility_is_named) {
   ASSERT_TRUE(s);
   EXPECT_EQ(s->utility, 1.0);
   ASSERT_TRUE(s->ignored);
-  EXPECT_EQ(s->ignored->why, rota::utility_fault::not_a_number);
+  EXPECT_EQ(s->ignored->reason, rota::utility_fault::not_a_number);
 
   fixture g(2, {{0, 1, 2}});
   g.plan().general = true;
   g.plan().offset = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(g.refusal().why, reason::utility_refused);
+  EXPECT_EQ(g.refusal().reason, reason::utility_refused);
   EXPECT_EQ(g.refusal().fault, rota::utility_fault::positive_infinity);
 }
 
@@ -170,26 +170,26 @@ TEST(no_allocation, utilities_too_great_for_so_many_tasks_prove_nothing) {
   rota::problem const hopeless{alone, team, beliefs};
   auto const none = best_allocation(hopeless, work);
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().plans[0].why, reason::utilities_too_great);
+  EXPECT_EQ(none.error().plans[0].reason, reason::utilities_too_great);
   EXPECT_EQ(none.error().plans[0].fault, rota::utility_fault::out_of_range);
   EXPECT_FALSE(rota::describe(none.error().plans[0]).empty());
   EXPECT_FALSE(none.error().proved());
   auto const kept = reallocate(hopeless, {}, work);
   EXPECT_EQ(kept.reason, rota::reallocation_reason::kept_unproved);
-  EXPECT_FALSE(kept.optimal);
+  EXPECT_FALSE(kept.proved);
 
   auto const both = rota::plan_type<V>::make({}, {modest, much}).value();
   auto const some = best_allocation(rota::problem{both, team, beliefs}, work);
   ASSERT_TRUE(some);
   EXPECT_EQ(some->utility, 2);
-  EXPECT_FALSE(some->optimal) << "the other plan is worth far more";
+  EXPECT_FALSE(some->proved) << "the other plan is worth far more";
   EXPECT_EQ(some->gap, std::numeric_limits<double>::infinity());
 
   auto const fewer = great::plan_of(2, 25, rota::max_utility);
   auto const within = rota::plan_type<V>::make({}, {modest, fewer}).value();
   auto const best = best_allocation(rota::problem{within, team, beliefs}, work);
   ASSERT_TRUE(best);
-  EXPECT_TRUE(best->optimal);
+  EXPECT_TRUE(best->proved);
   EXPECT_EQ(best->utility, 2 * rota::max_utility);
 }
 
@@ -205,7 +205,7 @@ TEST(no_allocation, change_costs_count_in_what_is_summed_exactly) {
   problem.change_cost = rota::max_utility;
   auto const none = best_allocation(problem, work);
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().plans[0].why, reason::utilities_too_great);
+  EXPECT_EQ(none.error().plans[0].reason, reason::utilities_too_great);
 }
 
 TEST(no_allocation, functions_that_throw) {
@@ -219,7 +219,7 @@ TEST(no_allocation, functions_that_throw) {
     auto const type = plan_type_t::make(names::plan_type::only, {plan_t::make(d).value()}).value();
     return best_allocation(rota::problem{type, team}, work);
   };
-  EXPECT_EQ(solve().error().plans[0].why, reason::precondition_threw);
+  EXPECT_EQ(solve().error().plans[0].reason, reason::precondition_threw);
   d.precondition = {};
   d.utility =
       rota::additive_utility<names, rota::no_beliefs>([](auto, auto, auto) -> std::optional<double> { throw 1; });
@@ -236,7 +236,7 @@ TEST(best_allocation, nobody_and_strangers) {
   EXPECT_EQ(nobody->plan, names::plan(1));
   EXPECT_EQ(nobody->utility, 0.0);
   f.plan().tasks[0].min = 1;
-  EXPECT_EQ(f.refusal().why, reason::too_few_agents);
+  EXPECT_EQ(f.refusal().reason, reason::too_few_agents);
   // A participant that is not in the team gets no task.
   fixture g(1, {{0, 0, 2}});
   g.raw.participants = {0, 5};
@@ -279,7 +279,7 @@ TEST(best_allocation, additive_is_polynomial) {  // ALICA's defect 7: 16 x 8 too
       rota::workspace work;
       auto const s = best_allocation(rota::problem{type, team}, work);
       ASSERT_TRUE(s);
-      EXPECT_TRUE(s->optimal);
+      EXPECT_TRUE(s->proved);
       auto const agents = static_cast<std::uint64_t>(n);
       auto const slots = static_cast<std::uint64_t>(m + 1);
       EXPECT_EQ(s->work.nodes, 0u);

@@ -144,10 +144,10 @@ TEST(describe, every_way_a_reallocation_ends) {
 TEST(describe, knows_every_reason) {
   for (int r = 0; r <= static_cast<int>(rota::no_plan_reason::change_cost_refused); ++r) {
     rota::plan_refusal<soccer> refusal;
-    refusal.why = rota::no_plan_reason(r);
+    refusal.reason = rota::no_plan_reason(r);
     refusal.fault = rota::utility_fault::threw;
     EXPECT_GT(describe(refusal).size(), 10u) << r;
-    EXPECT_GT(to_string(refusal.why).size(), 5u) << r;
+    EXPECT_GT(to_string(refusal.reason).size(), 5u) << r;
   }
   for (int r = 0; r <= static_cast<int>(rota::reallocation_reason::search_incomplete); ++r) {
     rota::reallocation<soccer> next;
@@ -170,7 +170,7 @@ struct numbers {
 // Of the whole, of one agent, of two.
 TEST(describe, a_utility_that_is_none) {
   rota::plan_refusal<soccer> r;
-  r.why = rota::no_plan_reason::utility_refused;
+  r.reason = rota::no_plan_reason::utility_refused;
   r.fault = rota::utility_fault::positive_infinity;
   EXPECT_EQ(describe(r), "the utility is +infinity");
   r.about_atom = true;

@@ -209,7 +209,7 @@ TEST_F(faults, numbers_out_of_reach_are_refused_and_a_forged_one_is_forgotten) {
     EXPECT_EQ(r.reason, refusal::number_out_of_reach);
     EXPECT_EQ(a, before);
   };
-  for (std::uint64_t const far : {5 + robot::most_jump + 1, std::uint64_t{1} << 62, ~std::uint64_t{0}}) {
+  for (std::uint64_t const far : {5 + rota::most_jump + 1, std::uint64_t{1} << 62, ~std::uint64_t{0}}) {
     refused(says(2, far, attack));
     refused(claim_by(9, 9, far));
     auto c = claim_by(9, 9, 5);
@@ -226,7 +226,7 @@ TEST_F(faults, numbers_out_of_reach_are_refused_and_a_forged_one_is_forgotten) {
   m.types[0].leads = 3;
   EXPECT_EQ(a.receive(m, at(10)).reason, refusal::foreign_claim);
 
-  EXPECT_EQ(a.receive(says(2, 5 + robot::most_jump, attack), at(10)).verdict, verdict::accepted);
+  EXPECT_EQ(a.receive(says(2, 5 + rota::most_jump, attack), at(10)).verdict, verdict::accepted);
   EXPECT_EQ(a.receive(says(2, 6, defend), at(100)).verdict, verdict::stale)
       << "a forgery within reach mutes its victim";
   EXPECT_EQ(a.receive(says(2, 7, defend), at(40000)).verdict, verdict::accepted) << "but not for long";
@@ -254,7 +254,7 @@ TEST_F(faults, one_version_says_one_thing) {
 TEST_F(faults, more_types_than_a_message_may_have_are_refused) {
   auto a = in_play(1);
   auto m = says_nothing(2, 1);
-  for (int i = 0; i <= static_cast<int>(robot::most_types); ++i) m.types.push_back({soccer::plan_type(100 + i)});
+  for (int i = 0; i <= static_cast<int>(m.most_types); ++i) m.types.push_back({soccer::plan_type(100 + i)});
   EXPECT_EQ(a.receive(m, start).reason, refusal::too_many_types);
   m.types.pop_back();
   EXPECT_EQ(a.receive(m, start).verdict, verdict::accepted);

@@ -66,11 +66,11 @@ namespace rota {
 /// Why U_p is not defined, as a sentence without a full stop. `name(id)` turns agents and tasks into strings.
 template <vocabulary V, class Names = default_names>
 [[nodiscard]] std::string describe(utility_refusal<V> const& r, Names const& name = {}) {
-  if (!r.atom) return "the utility " + to_string(r.why);
+  if (!r.atom) return "the utility " + to_string(r.reason);
   std::string const one = "agent " + name(r.atom->agent) + " on task " + name(r.atom->task);
-  if (!r.other) return "the utility of " + one + " " + to_string(r.why);
+  if (!r.other) return "the utility of " + one + " " + to_string(r.reason);
   return "the utility of " + one + " together with agent " + name(r.other->agent) + " on task " + name(r.other->task) +
-         " " + to_string(r.why);
+         " " + to_string(r.reason);
 }
 
 /// One violation as a sentence without a full stop. `name(id)` turns agents, plans, tasks and states into strings.

@@ -9,7 +9,7 @@ namespace rota {
 /// Refusal: why U_p is not defined on an allocation; with the atom, or the two atoms, whose utility is at fault.
 template <vocabulary V>
 struct utility_refusal {
-  utility_fault why{};
+  utility_fault reason{};
   std::optional<in<V>> atom{};
   std::optional<in<V>> other{};  ///< of a pair
 
@@ -25,10 +25,10 @@ template <vocabulary V, class Beliefs, class Sink>
   fixed_utility total;
   bool defined = true;
   auto count = [&](result<fixed_utility, utility_fault> const& term, std::optional<in<V>> x, std::optional<in<V>> y) {
-    auto const why = add(total, term);
-    if (why == utility_fault::none) return;
+    auto const reason = add(total, term);
+    if (reason == utility_fault::none) return;
     defined = false;
-    fault(utility_refusal<V>{why, x, y});
+    fault(utility_refusal<V>{reason, x, y});
   };
   for_each_part<V, Beliefs>(p.utility(), [&](double weight, auto const& part) {
     using part_type = std::remove_cvref_t<decltype(part)>;
@@ -61,8 +61,8 @@ template <vocabulary V, class Beliefs>
 [[nodiscard]] result<fixed_utility, utility_refusal<V>> evaluate(problem<V, Beliefs> const& problem,
                                                                  plan<V, Beliefs> const& p, allocation_view<V> atoms) {
   std::optional<utility_refusal<V>> first;
-  auto const total = detail::value<V, Beliefs>(problem, p, atoms, [&](utility_refusal<V> const& why) {
-    if (!first) first = why;
+  auto const total = detail::value<V, Beliefs>(problem, p, atoms, [&](utility_refusal<V> const& reason) {
+    if (!first) first = reason;
   });
   if (total) return *total;
   return refused{*first};

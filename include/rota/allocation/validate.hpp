@@ -181,12 +181,12 @@ std::optional<fixed_utility> judge_functions(problem<V, Beliefs> const& problem,
     auto const holds = guarded([&] { return p.precondition()(problem.beliefs, atoms); });
     if (!holds || !*holds) report(clause::precondition, holds ? utility_fault::none : utility_fault::threw, 0);
   }
-  auto const total = value<V, Beliefs>(problem, p, atoms, [&](utility_refusal<V> const& why) {
-    if (!why.atom) return report(clause::utility, why.why, 0);
-    auto const c = why.why == utility_fault::forbidden_pair ? clause::forbidden_pair : clause::utility;
-    auto v = at<V>(c, p.id(), *why.atom);
-    v.fault = why.why;
-    if (why.other) v.other = *why.other, v.about_pair = true;
+  auto const total = value<V, Beliefs>(problem, p, atoms, [&](utility_refusal<V> const& r) {
+    if (!r.atom) return report(clause::utility, r.reason, 0);
+    auto const c = r.reason == utility_fault::forbidden_pair ? clause::forbidden_pair : clause::utility;
+    auto v = at<V>(c, p.id(), *r.atom);
+    v.fault = r.reason;
+    if (r.other) v.other = *r.other, v.about_pair = true;
     sink(v);
   });
   if (total && total->units < 0) report(clause::utility, utility_fault::negative, to_double(*total));

@@ -12,7 +12,7 @@ namespace rota {
 /// Marks the refusal branch while building a `result`: `return refused{overlap{x}};`.
 template <class Refusal>
 struct refused {
-  Refusal why;
+  Refusal reason;
 };
 
 template <class Refusal>
@@ -32,10 +32,10 @@ template <class T>
 
 /// Ends the program and says which refusal was taken for a value. Also without assertions: nothing right could follow.
 template <class Refusal>
-[[noreturn]] void no_value(Refusal const& why) noexcept {
+[[noreturn]] void no_value(Refusal const& reason) noexcept {
   ROTA_REPORT("rota: there is no value, the result was refused: ");
-  if constexpr (requires { static_cast<char const*>(reason_of(why)); })
-    ROTA_REPORT(static_cast<char const*>(reason_of(why)));
+  if constexpr (requires { static_cast<char const*>(reason_of(reason)); })
+    ROTA_REPORT(static_cast<char const*>(reason_of(reason)));
   else
     ROTA_REPORT(type_name<Refusal>());
   ROTA_REPORT("\n");
@@ -66,7 +66,7 @@ public:
   using refusal_type = Refusal;
 
   constexpr result(T value) : state_(detail::as_value{}, std::move(value)) {}
-  constexpr result(refused<Refusal> r) : state_(detail::as_refusal{}, std::move(r.why)) {}
+  constexpr result(refused<Refusal> r) : state_(detail::as_refusal{}, std::move(r.reason)) {}
 
   [[nodiscard]] constexpr bool has_value() const noexcept { return state_.has_value; }
   constexpr explicit operator bool() const noexcept { return has_value(); }

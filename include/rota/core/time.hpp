@@ -46,5 +46,12 @@ struct instant {
 
 /// Later than every instant that a clock shows.
 inline constexpr instant never{(std::numeric_limits<std::int64_t>::max)()};
+/// Earlier than every instant that a clock shows.
+inline constexpr instant long_ago{(std::numeric_limits<std::int64_t>::min)()};
+
+/// An instant after the clock was set by d; `never` and `long_ago` stay.
+[[nodiscard]] constexpr instant moved(instant t, duration d) noexcept {
+  return t == never || t == long_ago ? t : t + d;
+}
 
 }  // namespace rota

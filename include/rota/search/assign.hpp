@@ -69,7 +69,7 @@ enum class assign_fault : unsigned char {
 
 /// Refusal: why there is no assignment, and where.
 struct assign_refusal {
-  assign_fault why{};
+  assign_fault reason{};
   std::size_t agent = 0;
   std::size_t task = 0;
 
@@ -78,7 +78,7 @@ struct assign_refusal {
 
 /// The refusal in words, without its place: `result` prints it where a refused assignment is taken for an assignment.
 [[nodiscard]] constexpr char const* reason_of(assign_refusal const& r) noexcept {
-  switch (r.why) {
+  switch (r.reason) {
   case assign_fault::sizes_differ: return "sizes_differ: the matrix does not have one entry per task in every row";
   case assign_fault::empty_bounds: return "empty_bounds: the bounds of a task admit no number of agents";
   case assign_fault::not_a_number: return "not_a_number: an entry is NaN";

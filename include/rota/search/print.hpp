@@ -65,7 +65,7 @@ namespace rota {
 [[nodiscard]] inline std::string describe(assign_refusal const& r) {
   auto const agent = "agent " + std::to_string(r.agent);
   auto const task = "task " + std::to_string(r.task);
-  switch (r.why) {
+  switch (r.reason) {
   case assign_fault::sizes_differ: return "the matrix does not have one entry per task in every row";
   case assign_fault::empty_bounds: return "the bounds of " + task + " admit no number of agents";
   case assign_fault::not_a_number: return "the entry of " + agent + " and " + task + " is not a number";
@@ -105,7 +105,7 @@ template <vocabulary V, class Names>
 template <vocabulary V, class Names = default_names>
 [[nodiscard]] std::string describe(plan_refusal<V> const& r, Names const& name = {}) {
   auto const count = std::to_string(r.count);
-  switch (r.why) {
+  switch (r.reason) {
   case no_plan_reason::contradictory_cardinalities:
     return "the tasks' cardinalities sum to " + count + " agents, but the plan bears " + to_string(r.bounds);
   case no_plan_reason::too_few_agents:
@@ -144,7 +144,7 @@ template <vocabulary V, class Names>
   bool said = false;
   for (auto const& r : plans) {
     out += (out.empty() ? ": plan " : "; plan ") + name(r.plan) + ": " + describe(r, name);
-    said |= r.why == no_plan_reason::utility_refused;
+    said |= r.reason == no_plan_reason::utility_refused;
   }
   return out + complaints(said ? std::nullopt : ignored, lie, name);
 }
@@ -162,7 +162,7 @@ template <vocabulary V, class Names = default_names>
 template <vocabulary V, class Names = default_names>
 [[nodiscard]] std::string describe(solution<V> const& s, Names const& name = {}) {
   std::string out = "plan " + name(s.plan) + " with utility " + detail::number(s.utility) + ", ";
-  out += s.optimal ? "proved to be the best" : detail::words_of_gap(s.gap);
+  out += s.proved ? "proved to be the best" : detail::words_of_gap(s.gap);
   if (s.runner_up)
     out += "; the next best is plan " + name(s.runner_up->plan) + ", worth " + detail::number(s.runner_up->distance) +
            " less";
@@ -195,7 +195,7 @@ template <vocabulary V, class Names = default_names>
     break;
   }
   if (!r.refusals.empty()) return out + detail::reasons(r.refusals, r.ignored, r.lie, name);
-  if (!r.optimal) out += "; " + detail::words_of_gap(r.gap);
+  if (!r.proved) out += "; " + detail::words_of_gap(r.gap);
   return out + detail::complaints(r.ignored, r.lie, name);
 }
 

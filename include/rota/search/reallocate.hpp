@@ -32,7 +32,7 @@ struct reallocation {
   reallocation_reason reason{};
   std::optional<double> gain{};  ///< U(best) less change costs − U(running), if both are valid
   std::size_t changes = 0;       ///< how many participants do something else from now on
-  bool optimal = false;          ///< as `solution::optimal`, of the best allocation found
+  bool proved = false;           ///< as `solution::proved`, of the best allocation found
   double gap = 0;                ///< proved: no valid allocation is better than the best one found by more than this
   search_work work{};
   std::optional<violation<V>> violated{};       ///< the first violation of the running allocation, if it is not valid
@@ -99,7 +99,7 @@ template <vocabulary V, class Beliefs>
   reallocation<V> next;
   auto now = detail::standing_of(problem);
   auto running = allocation_atoms<V>::from_ascending({problem.current.begin(), problem.current.end()});
-  next.optimal = best ? best->optimal : best.error().proved();
+  next.proved = best ? best->proved : best.error().proved();
   next.gap = best ? best->gap : 0;
   next.work = best ? best->work : best.error().work;
   next.ignored = best ? best->ignored : best.error().ignored;
@@ -115,7 +115,7 @@ template <vocabulary V, class Beliefs>
     next.plan = now.plan;
     next.utility = to_double(now.utility);
     next.reason = best && best->exact > now.utility ? reallocation_reason::kept_hysteresis
-                  : next.optimal                    ? reallocation_reason::kept_optimal
+                  : next.proved                     ? reallocation_reason::kept_optimal
                                                     : reallocation_reason::kept_unproved;
     return next;
   }
@@ -128,7 +128,7 @@ template <vocabulary V, class Beliefs>
                   : now.valid     ? reallocation_reason::adopted_better
                                   : reallocation_reason::current_invalid;
   } else {
-    next.reason = next.optimal ? reallocation_reason::no_valid_allocation : reallocation_reason::search_incomplete;
+    next.reason = next.proved ? reallocation_reason::no_valid_allocation : reallocation_reason::search_incomplete;
   }
   next.event = difference(running, next.atoms);
   return next;

@@ -44,8 +44,8 @@ struct solution {
   std::size_t changes = 0;    ///< participants who do something else than in `problem::current`
   /// Proved: no valid allocation of any plan is better, nor preferred among equals. False only if the budget ran out, a
   /// bound lied, or the utilities of another plan were too great.
-  bool optimal = false;
-  /// Proved: no valid allocation is better by more than this. May be 0 without `optimal`: then an equally good allocation
+  bool proved = false;
+  /// Proved: no valid allocation is better by more than this. May be 0 without `proved`: then an equally good allocation
   /// may be preferred.
   double gap = 0;
   search_work work{};
@@ -80,7 +80,7 @@ enum class no_plan_reason : unsigned char {
 template <vocabulary V = runtime_vocabulary>
 struct plan_refusal {
   typename V::plan plan{};
-  no_plan_reason why{};
+  no_plan_reason reason{};
   typename V::agent agent{};
   typename V::task task{};
   bool about_atom = false;  ///< utility_refused: whether the fault is that of `agent` on `task`
@@ -93,8 +93,8 @@ struct plan_refusal {
 
   /// Whether it is proved that the plan has no valid allocation.
   [[nodiscard]] constexpr bool proved() const noexcept {
-    return why != no_plan_reason::search_incomplete && why != no_plan_reason::utilities_too_great &&
-           why != no_plan_reason::change_cost_refused;
+    return reason != no_plan_reason::search_incomplete && reason != no_plan_reason::utilities_too_great &&
+           reason != no_plan_reason::change_cost_refused;
   }
 
   friend bool operator==(plan_refusal const&, plan_refusal const&) = default;

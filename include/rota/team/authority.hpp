@@ -1,11 +1,11 @@
 #pragma once
 
+#include <rota/team/detail/by_agent.hpp>
 #include <rota/team/message.hpp>
 
 #include <algorithm>
 #include <compare>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -87,7 +87,7 @@ public:
   }
   /// The last claim of this leader that was heard, if any is remembered.
   [[nodiscard]] std::optional<identity> last_heard(agent_id leader) const {
-    auto const* const k = find(leader);
+    auto const* const k = known_.find(leader);
     return k ? std::optional{k->last} : std::nullopt;
   }
   /// The version of the claim in force, if it is c's.
@@ -99,13 +99,13 @@ public:
   /// Hears a claim that is well-formed and from somebody else. `mine` is the robot's own stamp, were it to claim now;
   /// none if it would not. @pre `!contradicts(c)`
   heard_claim hear(claim<V> const& c, std::optional<claim_stamp<V>> const& mine, instant now, duration max_delay) {
-    known& k = remember(c.leader);
+    known& k = known_.at(c.leader);
     auto const id = identity_of(c);
     auto const end = now + c.remaining;
     if (id < k.last) return {claim_outcome::expired};
     bool const fresh = id > k.last || c.remaining < k.least;
     if (id > k.last) {
-      k = {c.leader, id, c.stamp, end, end - max_delay, never_heard, c.remaining};
+      k = {c.leader, id, c.stamp, end, end - max_delay, long_ago, c.remaining};
       if (obeying() && claim_.leader == c.leader)
         phase_ = phase::none;  // a leader that claims anew has ended the last one
     } else {
@@ -123,10 +123,10 @@ public:
   /// Takes in that all claims of this leader up to `made` are over, but for `leads`. True if the claim in force ended by it.
   bool hear_over(agent_id leader, rota::incarnation incarnation, std::uint64_t made, std::uint64_t leads, instant now,
                  duration max_delay) {
-    known* const k = find(leader);
+    known* const k = known_.find(leader);
     if (!k || k->over) return false;
     if (k->last.incarnation > incarnation) {  // of a life that it does not live: a forgery, unless the message is late
-      if (now - k->expiry > max_delay) known_.erase(k);
+      if (now - k->expiry > max_delay) known_.erase(leader);
       return false;
     }
     if (k->last.incarnation == incarnation && (k->last.number > made || k->last.number == leads)) return false;
@@ -137,9 +137,9 @@ public:
   }
 
   /// When the last claim of somebody with a stamp greater than `mine` was heard although it had ended here: one of the
-  /// clocks has jumped, and its leader still rules. An instant before all others if there is none.
+  /// clocks has jumped, and its leader still rules. `long_ago` if there is none.
   [[nodiscard]] instant heard_late(claim_stamp<V> const& mine) const noexcept {
-    instant latest = never_heard;
+    instant latest = long_ago;
     for (known const& k : known_)
       if (mine < k.stamp) latest = (std::max)(latest, k.late);
     return latest;
@@ -156,7 +156,7 @@ public:
   void release() { phase_ = phase::none; }
   /// Forgets what it knows of a leader that was not heard for so long that it may begin a new life with any number.
   void forget(agent_id leader) {
-    if (known* const k = find(leader); k && !(obeying() && claim_.leader == leader)) known_.erase(k);
+    if (!(obeying() && claim_.leader == leader)) known_.erase(leader);
   }
 
   /// The leader has deliberated: a change is a new version. That, and a claim never sent, is due at once.
@@ -184,13 +184,13 @@ public:
 
   /// Moves everything it remembers by d: the clock has been set.
   void shift(duration d) noexcept {
-    expiry_ = expiry_ + d;
-    began_ = began_ + d;
-    if (next_repeat_ != never) next_repeat_ = next_repeat_ + d;
+    expiry_ += d;
+    began_ += d;
+    next_repeat_ = moved(next_repeat_, d);
     for (known& k : known_) {
-      k.expiry = k.expiry + d;
-      k.earliest = k.earliest + d;
-      if (k.late != never_heard) k.late = k.late + d;
+      k.expiry += d;
+      k.earliest += d;
+      k.late = moved(k.late, d);
     }
   }
 
@@ -212,19 +212,17 @@ public:
 private:
   enum class phase : unsigned char { none, leading, obeying };
 
-  static constexpr instant never_heard{(std::numeric_limits<std::int64_t>::min)()};
-
   /// The last claim heard of one leader.
   struct known {
     agent_id leader{};
     identity last{};
     claim_stamp<V> stamp{};
-    instant expiry{};            // the earliest end that any copy named, but at least `earliest`
-    instant earliest{};          // the end that the first copy named, less the greatest delay
-    instant late = never_heard;  // when a copy was last heard after that end
-    duration least{};            // the least time left in any copy
-    bool answered = false;       // this robot has claimed against it
-    bool over = false;           // its leader says that it is
+    instant expiry{};         // the earliest end that any copy named, but at least `earliest`
+    instant earliest{};       // the end that the first copy named, less the greatest delay
+    instant late = long_ago;  // when a copy was last heard after that end
+    duration least{};         // the least time left in any copy
+    bool answered = false;    // this robot has claimed against it
+    bool over = false;        // its leader says that it is
     friend bool operator==(known const&, known const&) = default;
   };
 
@@ -251,29 +249,14 @@ private:
   }
 
   static identity identity_of(claim<V> const& c) { return {c.incarnation, c.number}; }
-  known const* find(agent_id leader) const {
-    auto const* const where = lower(leader);
-    return where != known_.end() && where->leader == leader ? where : nullptr;
-  }
-  known* find(agent_id leader) { return const_cast<known*>(std::as_const(*this).find(leader)); }
-  known const* lower(agent_id leader) const {
-    return std::lower_bound(known_.begin(), known_.end(), leader,
-                            [](known const& k, agent_id key) { return k.leader < key; });
-  }
-  known& remember(agent_id leader) {
-    if (known* const k = find(leader)) return *k;
-    known fresh;
-    fresh.leader = leader;
-    return *known_.insert(lower(leader), fresh);
-  }
 
   phase phase_ = phase::none;
   claim<V> claim_;
   instant expiry_{};
   instant began_{};
   instant next_repeat_{};
-  bool said_ = false;             // the claim was sent at least once
-  small_vector<known, 4> known_;  // ascending by leader; at most one per agent of the roster
+  bool said_ = false;  // the claim was sent at least once
+  detail::by_agent<known, &known::leader, 4> known_;
 };
 
 }  // namespace rota

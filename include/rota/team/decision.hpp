@@ -17,7 +17,7 @@ enum class refusal : unsigned char {
   own_former_life,       ///< … in a life before this one: an echo
   own_later_life,        ///< … in a life after this one: this robot's incarnation was not obtained as it should
   stranger,              ///< its sender, or an agent that a claim is about, is not in the roster
-  too_many_types,        ///< a plan message of more than `robot::most_types` types
+  too_many_types,        ///< a plan message of more than `plan_message::most_types` types
   number_out_of_reach,   ///< a number that no genuine message can have by now: a flipped bit, or a forgery
   types_not_ascending,   ///< a plan message lists a type twice, or out of order
   unknown_task,          ///< the executed plan type has no such plan or task

@@ -5,11 +5,18 @@
 #include <rota/team/incarnation.hpp>
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <variant>
 
 namespace rota {
+
+/// Within one life, no number of a sender's messages grows by more from one message to the next.
+inline constexpr std::uint64_t most_jump = 1 << 16;
+
+/// No duration in a message or in the options of a robot is longer, so that instants do not overflow.
+inline constexpr duration longest_duration = seconds(100'000'000);
 
 /// Orders the messages of one sender over all its lives: first by restart, then within one life.
 struct message_number {
@@ -46,6 +53,9 @@ struct participation {
 /// It says nothing about other agents: a sender is trusted about itself and about nobody else.
 template <vocabulary V = runtime_vocabulary>
 struct plan_message {
+  /// A message with more types is refused.
+  static constexpr std::size_t most_types = 64;
+
   typename V::agent sender{};
   message_number number;
   std::uint64_t claims =

@@ -1,15 +1,16 @@
 #pragma once
 
 #include <rota/team/decision.hpp>
+#include <rota/team/detail/admission.hpp>
 #include <rota/team/detail/digest.hpp>
 #include <rota/team/detail/roster.hpp>
+#include <rota/team/detail/timetable.hpp>
 #include <rota/team/detail/track.hpp>
 #include <rota/team/message.hpp>
 #include <rota/team/monitor.hpp>
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -33,31 +34,21 @@ public:
   using agent_id = typename V::agent;
   using type_id = typename V::plan_type;
 
-  /// Within one life, no number of a message grows by more from one to the next.
-  static constexpr std::uint64_t most_jump = 1 << 16;
-  /// A plan message with more types is refused.
-  static constexpr std::size_t most_types = 64;
-
   /// `everybody`: all agents that may ever be heard of; messages of others are refused. It may list the robot itself.
   /// `life`: greater at each restart; see `incarnation` for where to get it.
-  /// @pre `life` is not 0; periods are positive, and no duration is above `longest`; 0 < reign ≤ max_reign, or nobody would
+  /// @pre `life` is not 0; periods are positive, and no duration is above `longest_duration`; 0 < reign ≤ max_reign, or nobody would
   /// obey
   robot(agent_id self, std::span<agent_id const> everybody, rota::incarnation life, robot_options const& options = {})
-      : self_(self),
-        incarnation_(life),
-        options_(options),
-        peers_(self, everybody),
-        next_plan_message_(options.first_message) {
+      : self_(self), incarnation_(life), options_(options), peers_(self, everybody), timetable_(options) {
     ROTA_ASSERT(life.value > 0);
     ROTA_ASSERT(options.message_period > duration{} && options.claim_period > duration{});
     ROTA_ASSERT(options.reign > duration{} && options.reign <= options.max_reign);
-    ROTA_ASSERT(options.max_reign <= longest && options.message_period <= longest && options.claim_period <= longest);
-    ROTA_ASSERT(options.silence <= longest && options.forget <= longest && options.pending_age <= longest);
-    ROTA_ASSERT(options.max_delay >= duration{} && options.max_delay <= longest);
+    ROTA_ASSERT(options.max_reign <= longest_duration && options.message_period <= longest_duration &&
+                options.claim_period <= longest_duration);
+    ROTA_ASSERT(options.silence <= longest_duration && options.forget <= longest_duration &&
+                options.pending_age <= longest_duration);
+    ROTA_ASSERT(options.max_delay >= duration{} && options.max_delay <= longest_duration);
   }
-
-  /// No duration of the options is longer, so that instants do not overflow.
-  static constexpr duration longest = seconds(100'000'000);
 
   [[nodiscard]] agent_id self() const noexcept { return self_; }
   [[nodiscard]] rota::incarnation incarnation() const noexcept { return incarnation_; }
@@ -82,7 +73,7 @@ public:
     where->monitor = Monitor(monitor_options{options_.cycles, options_.pending_age, options_.yielding});
     where->believed = {};
     where->believed.admit(self_, now);
-    changed_ = true;
+    timetable_.note_change();
     return true;
   }
 
@@ -97,7 +88,7 @@ public:
     t->believed = {};
     t->monitor.clear();
     t->rule.release();
-    changed_ = true;
+    timetable_.note_change();
     return true;
   }
 
@@ -138,9 +129,9 @@ public:
   /// O(types of the message + types known), and for each executed type two searches for the sender.
   reception<V> receive(plan_message<V> const& m, instant now) {
     auto* const sender = peers_.find(m.sender);
-    if (auto const reason = examine(m, sender, now); reason != refusal::none) return dropped(reason);
+    if (auto const reason = admission().refuses(m, sender, now); reason != refusal::none) return dropped(reason);
     ROTA_ASSERT(sender != nullptr);  // or it would have been a stranger
-    bool const new_life = forgotten(*sender, now);
+    bool const new_life = sender->forgotten(now, options_.forget);
     if (!new_life && m.number <= sender->last) return dropped();
     synchronise(now);
     if (new_life)
@@ -168,7 +159,8 @@ public:
       }
       if (!t.rule.active()) t.monitor.on_message(change, now);
       if (!change.empty()) r.changes.push_back({t.names.type(), change});
-      if (listed && said->fingerprint && *said->fingerprint != digest_of(t)) r.disagreements.push_back(t.names.type());
+      if (listed && said->fingerprint && *said->fingerprint != t.fingerprint())
+        r.disagreements.push_back(t.names.type());
     }
     return r;
   }
@@ -179,7 +171,7 @@ public:
   /// The leader judges whether its allocation is valid, under its own beliefs. O(|claim| log roster).
   reception<V> receive(claim<V> const& c, instant now) {
     auto const* const sender = peers_.find(c.leader);
-    if (auto const reason = examine(c, sender != nullptr); reason != refusal::none) return dropped(reason);
+    if (auto const reason = admission().refuses(c); reason != refusal::none) return dropped(reason);
     ROTA_ASSERT(sender != nullptr);  // or it would have been a stranger
     if (c.incarnation < sender->last.incarnation) return dropped();
     synchronise(now);
@@ -187,7 +179,8 @@ public:
     t.expire(now);
     reception<V> r;
     bool const was_active = t.rule.active();
-    auto const stamp = stamp_of(t, now);  // before it is frozen, also if it does not answer now
+    auto const stamp =
+        t.stamp_at(options_.confidence, self_, now);  // before it is frozen, also if it does not answer now
     auto const mine = t.blind ? std::nullopt : std::optional{stamp};
     auto const heard = t.rule.hear(c, mine, now, options_.max_delay);
     r.claim = heard.outcome;
@@ -195,7 +188,7 @@ public:
       if (was_active && !t.rule.active()) t.normalise();
       return r;
     }
-    freeze(t, now + c.remaining);
+    t.freeze(now + c.remaining);
     if (heard.outcome == claim_outcome::challenged) {
       (void)t.admit_all(c, now, options_.silence);
       // No longer than the claim that it answers: all authority that follows from one detection ends together. A
@@ -253,7 +246,7 @@ public:
       conclude(*t, d, now);
     }
     d.own = t->believed.part(self_);
-    changed_ = changed_ || mentions(d.event, self_);
+    timetable_.note_change(mentions(d.event, self_));
     if (t->rule.active()) d.leader = t->rule.current().leader;
     return d;
   }
@@ -267,18 +260,18 @@ public:
       if (!t.executing) continue;
       t.expire(now);
       if (auto c = t.rule.next_claim(now, options_.claim_period, options_.opening, options_.opening_period)) {
-        for (in<V> const& x : c->atoms) c->ages.push_back(age_of(t, x.agent, now));
+        for (in<V> const& x : c->atoms) c->ages.push_back(t.age_of(x.agent, self_, now, options_.silence));
         return message<V>{*std::move(c)};
       }
     }
-    if (now < next_plan_message_ && !(change_due() <= now)) return std::nullopt;
-    if (now >= next_plan_message_) next_plan_message_ = slot_after(now);
-    return message<V>{snapshot(now)};
+    if (now < timetable_.next_due()) return std::nullopt;
+    timetable_.sent(now);
+    return message<V>{snapshot()};
   }
 
   /// When `next_message` will have something to send, unless something happens before.
   [[nodiscard]] instant next_due() const noexcept {
-    instant due = (std::min)(next_plan_message_, change_due());
+    instant due = timetable_.next_due();
     for (track const& t : tracks_)
       if (t.executing) due = (std::min)(due, t.rule.next_due());
     return due;
@@ -290,7 +283,7 @@ public:
   [[nodiscard]] std::uint64_t digest(instant now) const {
     detail::state_digest d(now);
     d(self_, incarnation_.value, peers_).all(tracks_);
-    d(sequence_, claims_, next_plan_message_, spoke_, changed_, set_back_);
+    d(sequence_, claims_, timetable_, set_back_);
     return d.value();
   }
 
@@ -313,42 +306,13 @@ private:
       set_back_ = set_back_ - d;
       peers_.shift(d);
       for (track& t : tracks_) t.shift(d);
-      spoke_ = spoke_ + d;
-      next_plan_message_ = slot_after(now);
+      timetable_.shift(now, d);
     }
     latest_ = now;
-    if (next_plan_message_ - now > options_.message_period) next_plan_message_ = slot_after(now - nanoseconds(1));
+    timetable_.keep_up(now);
   }
-  /// The first slot of the grid of plan messages after an instant.
-  [[nodiscard]] instant slot_after(instant after) const noexcept {
-    auto const period = options_.message_period.ns;
-    auto const past = (after.ns % period - options_.first_message.ns % period + 2 * period) % period;
-    return after + nanoseconds(period - past);
-  }
-  [[nodiscard]] instant change_due() const noexcept {
-    return changed_ && options_.change_period > duration{} ? spoke_ + options_.change_period : never;
-  }
-
-  [[nodiscard]] bool forgotten(typename detail::roster<V>::peer const& p, instant now) const {
-    return p.last.incarnation.value == 0 || now - p.heard > options_.forget;
-  }
-  /// This robot's stamp, were it to claim now. It stays the same for as long as any claim it knows of can live.
-  claim_stamp<V> stamp_of(track& t, instant now) const {
-    if (now >= t.frozen_until) t.stamp = {options_.confidence, self_};
-    return t.stamp;
-  }
-  /// Time since b was last heard; just over `silence` if b has left or was deleted since the leader deliberated.
-  [[nodiscard]] duration age_of(track const& t, agent_id b, instant now) const {
-    if (b == self_) return {};
-    return t.believed.takes_part(b) ? now - t.believed.heard(b) : options_.silence + nanoseconds(1);
-  }
-  static void freeze(track& t, instant until) { t.frozen_until = (std::max)(t.frozen_until, until); }
-  [[nodiscard]] std::uint32_t digest_of(track const& t) const {
-    if constexpr (encodable_atom<in<V>>) {
-      return t.believed.fingerprint();
-    } else {
-      return 0;
-    }
+  [[nodiscard]] detail::admission<V, Monitor> admission() const {
+    return {self_, incarnation_, options_, peers_, tracks_};
   }
   /// What an allocation says of everybody else.
   allocation_atoms<V> others(allocation_atoms<V> const& atoms) const {
@@ -369,71 +333,12 @@ private:
     return r;
   }
 
-  /// No genuine number reaches this: greater ones are flipped bits, or forgeries that would mute their victim.
-  static constexpr std::uint64_t out_of_reach = std::uint64_t{1} << 62;
-  [[nodiscard]] static bool jumps(std::uint64_t from, std::uint64_t to) { return to > from && to - from > most_jump; }
-  /// A message from the robot's own id: an echo, or a sign that its incarnation was not obtained as it should.
-  [[nodiscard]] refusal own(rota::incarnation speaks) const {
-    if (speaks < incarnation_) return refusal::own_former_life;
-    return speaks == incarnation_ ? refusal::own_id : refusal::own_later_life;
-  }
-
-  refusal examine(plan_message<V> const& m, typename detail::roster<V>::peer const* sender, instant now) const {
-    if (m.sender == self_) return own(m.number.incarnation);
-    if (!sender) return refusal::stranger;
-    if (m.types.size() > most_types) return refusal::too_many_types;
-    if (m.number.incarnation.value == 0 || m.number.incarnation.value >= out_of_reach ||
-        m.number.sequence >= out_of_reach || m.claims >= out_of_reach)
-      return refusal::number_out_of_reach;
-    if (!forgotten(*sender, now) && m.number.incarnation == sender->last.incarnation &&
-        jumps(sender->last.sequence, m.number.sequence))
-      return refusal::number_out_of_reach;
-    for (auto const& p : m.types)
-      if (p.leads > m.claims) return refusal::foreign_claim;
-    auto t = tracks_.begin();
-    for (auto const* p = m.types.begin(); p != m.types.end(); ++p) {
-      if (p != m.types.begin() && !((p - 1)->type < p->type)) return refusal::types_not_ascending;
-      while (t != tracks_.end() && t->names.type() < p->type) ++t;
-      if (t == tracks_.end() || !t->executing || !(t->names.type() == p->type) || !p->place) continue;
-      if (!t->names.find(p->place->plan, p->place->task)) return refusal::unknown_task;
-    }
-    return refusal::none;
-  }
-
-  refusal examine(claim<V> const& c, bool known) const {
-    if (c.leader == self_) return own(c.incarnation);
-    if (!known) return refusal::stranger;
-    if (c.incarnation.value == 0 || c.number == 0 || c.incarnation.value >= out_of_reach || c.number >= out_of_reach ||
-        c.version >= out_of_reach)
-      return refusal::number_out_of_reach;
-    if (!(c.stamp.id == c.leader)) return refusal::foreign_stamp;
-    if (!options_.resolution) return refusal::resolution_off;
-    auto const* t = executed(c.type);
-    if (!t) return refusal::not_executed;
-    if (t->rule.contradicts(c)) return refusal::foreign_stamp;
-    if (auto const last = t->rule.last_heard(c.leader); last && last->incarnation == c.incarnation)
-      if (jumps(last->number, c.number)) return refusal::number_out_of_reach;
-    if (auto const version = t->rule.version_of(c); version && jumps(*version, c.version))
-      return refusal::number_out_of_reach;
-    if (c.remaining <= duration{} || c.remaining > options_.max_reign) return refusal::remaining_time;
-    for (auto const* x = c.atoms.begin(); x != c.atoms.end(); ++x) {
-      if (!(x->agent == self_) && !peers_.find(x->agent)) return refusal::stranger;
-      if (!t->names.find(x->plan, x->task)) return refusal::unknown_task;
-      if (!(x->plan == c.atoms.begin()->plan)) return refusal::malformed_allocation;
-      if (x != c.atoms.begin() && (x - 1)->agent == x->agent) return refusal::malformed_allocation;
-    }
-    if (c.ages.size() != c.atoms.size()) return refusal::malformed_allocation;
-    for (duration const age : c.ages)
-      if (age < duration{} || age > longest) return refusal::malformed_allocation;
-    return refusal::none;
-  }
-
   void lead(track& t, instant now, instant due, instant expiry) {
     t.monitor.clear();
-    auto const stamp = stamp_of(t, now);
-    freeze(t, expiry);
+    auto const stamp = t.stamp_at(options_.confidence, self_, now);
+    t.freeze(expiry);
     t.rule.lead(t.names.type(), t.believed.atoms(), stamp, incarnation_, ++claims_, now, due, expiry);
-    changed_ = true;
+    timetable_.note_change();
   }
   /// What follows from a search: a leader says it; everybody else looks for a loop, and claims if there is one. Who sees
   /// nothing valid does neither.
@@ -455,14 +360,12 @@ private:
     d.detected = v.detected;
     if (!v.detected || !options_.resolution) return;
     // Beside a greater leader that is still heard, though its claim has ended by this clock, there shall be no second one.
-    if (now < t.rule.heard_late(stamp_of(t, now)) + 2 * options_.claim_period) return;
+    if (now < t.rule.heard_late(t.stamp_at(options_.confidence, self_, now)) + 2 * options_.claim_period) return;
     lead(t, now, now, now + options_.reign);
     d.reign_began = true;
   }
 
-  plan_message<V> snapshot(instant now) {
-    spoke_ = now;
-    changed_ = false;
+  plan_message<V> snapshot() {
     plan_message<V> m{self_, {incarnation_, ++sequence_}, claims_, {}};
     for (track const& t : tracks_) {
       if (!t.executing) continue;
@@ -471,7 +374,7 @@ private:
       if (auto const own = t.believed.part(self_))
         p.place = placement<V>{own->plan, own->task, *t.believed.state(self_)};
       if (t.rule.leading()) p.leads = t.rule.current().number;
-      if (options_.fingerprints && encodable_atom<in<V>>) p.fingerprint = digest_of(t);
+      if (options_.fingerprints && encodable_atom<in<V>>) p.fingerprint = t.fingerprint();
       m.types.push_back(p);
     }
     return m;
@@ -484,10 +387,8 @@ private:
   std::vector<track> tracks_;  // ascending by type
   std::uint64_t sequence_ = 0;
   std::uint64_t claims_ = 0;  // made in this life
-  instant next_plan_message_;
-  instant spoke_{};       // when the last plan message was sent
-  bool changed_ = false;  // something in the next plan message is new
-  instant latest_{(std::numeric_limits<std::int64_t>::min)()};
+  detail::timetable timetable_;
+  instant latest_ = long_ago;
   duration set_back_{};  // by so much the clock was set back since the last decision
 };
 

@@ -18,14 +18,13 @@ namespace rota {
 /// The version of the form. A receiver refuses every other one whole.
 inline constexpr std::uint8_t wire_version = 1;
 
-/// No message has more: so a receiver's buffers and time are bounded whatever arrives.
-inline constexpr std::size_t most_wire_types = 64;
+/// No claim has more: so a receiver's buffers and time are bounded whatever arrives.
 inline constexpr std::size_t most_wire_atoms = 256;
 
 /// Why bytes are no message, or a message cannot become bytes.
 enum class wire_fault : unsigned char {
   no_room,        ///< encoding: the buffer is too small
-  too_many,       ///< more types or atoms than `most_wire_types`, `most_wire_atoms`
+  too_many,       ///< more types or atoms than `plan_message::most_types`, `most_wire_atoms`
   unequal_ages,   ///< encoding: a claim with more or fewer ages than atoms
   mixed_plans,    ///< encoding: a claim whose atoms are of two plans
   negative_time,  ///< encoding: a remaining time or an age below 0
@@ -103,7 +102,7 @@ template <vocabulary V>
 /// Writes a plan message. @return how many bytes; nothing is promised about `out` if it is refused
 template <vocabulary V>
 [[nodiscard]] result<std::size_t, wire_fault> encode(plan_message<V> const& m, std::span<std::byte> out) noexcept {
-  if (m.types.size() > most_wire_types) return refused{wire_fault::too_many};
+  if (m.types.size() > m.most_types) return refused{wire_fault::too_many};
   detail::byte_writer w(out);
   w.byte(detail::wire_mark | wire_version << 1);
   detail::write(w, m.sender);
@@ -173,7 +172,7 @@ void read(byte_reader& r, plan_message<V>& m) {
   m.number.incarnation.value = r.number();
   m.number.sequence = r.number();
   m.claims = r.number();
-  auto const count = r.number(most_wire_types);
+  auto const count = r.number(plan_message<V>::most_types);
   for (std::uint64_t i = 0; i < count && r.wrong() == byte_reader::fault::none; ++i) {
     participation<V> p;
     p.type = read<typename V::plan_type>(r);

@@ -54,7 +54,7 @@ public:
     s.work = work;
     s.ignored = ignored_;
     s.lie = std::move(lie_);
-    s.optimal = proved_ && bound_ <= s.objective.units && before_ < s.objective.units;
+    s.proved = proved_ && bound_ <= s.objective.units && before_ < s.objective.units;
     s.gap = bound_ == dense::no_bound ? std::numeric_limits<double>::infinity()
                                       : to_double({bound_}) - to_double(s.objective);
     auto const tasks = problem.type.find(s.plan)->tasks();

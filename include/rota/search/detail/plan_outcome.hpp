@@ -29,9 +29,9 @@ struct plan_outcome {
 
 /// Proved: no allocation of the plan is valid.
 template <vocabulary V>
-[[nodiscard]] plan_outcome<V> nothing_valid(plan_refusal<V> const& why) {
+[[nodiscard]] plan_outcome<V> nothing_valid(plan_refusal<V> const& reason) {
   plan_outcome<V> out;
-  out.refusal = why;
+  out.refusal = reason;
   out.bound = dense::no_value;
   out.proved = true;
   return out;
@@ -39,19 +39,19 @@ template <vocabulary V>
 
 /// Nothing valid was found, but `bound` leaves room for it.
 template <vocabulary V>
-[[nodiscard]] plan_outcome<V> nothing_found(plan_refusal<V> const& why, std::int64_t bound = dense::no_bound) {
+[[nodiscard]] plan_outcome<V> nothing_found(plan_refusal<V> const& reason, std::int64_t bound = dense::no_bound) {
   plan_outcome<V> out;
-  out.refusal = why;
+  out.refusal = reason;
   out.bound = bound;
   return out;
 }
 
 /// A refusal for a reason that needs no witness.
 template <vocabulary V>
-[[nodiscard]] plan_refusal<V> refusal_of(typename V::plan p, no_plan_reason why) {
+[[nodiscard]] plan_refusal<V> refusal_of(typename V::plan p, no_plan_reason reason) {
   plan_refusal<V> r;
   r.plan = p;
-  r.why = why;
+  r.reason = reason;
   return r;
 }
 
@@ -59,7 +59,7 @@ template <vocabulary V>
 template <vocabulary V>
 [[nodiscard]] plan_refusal<V> refusal_of(typename V::plan p, utility_refusal<V> const& fault) {
   auto r = refusal_of<V>(p, no_plan_reason::utility_refused);
-  r.fault = fault.why;
+  r.fault = fault.reason;
   if (fault.atom) r.about_atom = true, r.agent = fault.atom->agent, r.task = fault.atom->task;
   if (fault.other) r.about_pair = true, r.other = *fault.other;
   return r;

@@ -33,8 +33,8 @@ public:
 
 private:
   plan_outcome<V> search(search_budget const& budget, search_work& done) {
-    if (auto const why = write_bounds(view_, memory_)) return nothing_valid(*why);
-    if (auto const why = matrix_.write()) return why->proved() ? nothing_valid(*why) : nothing_found(*why);
+    if (auto const reason = write_bounds(view_, memory_)) return nothing_valid(*reason);
+    if (auto const reason = matrix_.write()) return reason->proved() ? nothing_valid(*reason) : nothing_found(*reason);
     dense::instance in{
         view_.agents(), {memory_.keys.data(), memory_.keys.size()}, {memory_.bounds.data(), memory_.bounds.size()}};
     in.unique = memory_.ties.unique();

@@ -16,10 +16,10 @@ namespace rota::detail {
 template <vocabulary V, class Beliefs>
 [[nodiscard]] std::optional<plan_refusal<V>> write_bounds(plan_view<V, Beliefs> const& view, plan_memory& memory) {
   constexpr std::uint64_t unlimited = std::uint64_t{1} << 40;
-  auto const refuse = [&](no_plan_reason why, std::uint64_t count, cardinality bounds) {
+  auto const refuse = [&](no_plan_reason reason, std::uint64_t count, cardinality bounds) {
     plan_refusal<V> r;
     r.plan = view.plan.id();
-    r.why = why;
+    r.reason = reason;
     r.count = count;
     r.bounds = bounds;
     return r;

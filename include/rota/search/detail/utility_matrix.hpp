@@ -74,10 +74,10 @@ public:
   }
 
 private:
-  [[nodiscard]] plan_refusal<V> refusal(no_plan_reason why) const {
+  [[nodiscard]] plan_refusal<V> refusal(no_plan_reason reason) const {
     plan_refusal<V> r;
     r.plan = view_.plan.id();
-    r.why = why;
+    r.reason = reason;
     return r;
   }
 

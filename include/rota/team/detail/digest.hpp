@@ -5,7 +5,6 @@
 
 #include <concepts>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <type_traits>
 
@@ -25,9 +24,7 @@ public:
     return *this;
   }
   constexpr state_digest& operator()(instant t) noexcept {
-    bool const real =
-        t.ns != (std::numeric_limits<std::int64_t>::max)() && t.ns != (std::numeric_limits<std::int64_t>::min)();
-    mix(static_cast<std::uint64_t>(real ? t.ns - now_.ns : t.ns));
+    mix(static_cast<std::uint64_t>(moved(t, instant{} - now_).ns));
     return *this;
   }
   constexpr state_digest& operator()(duration d) noexcept {

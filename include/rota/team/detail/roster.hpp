@@ -1,11 +1,9 @@
 #pragma once
 
+#include <rota/team/detail/by_agent.hpp>
 #include <rota/team/message.hpp>
 
-#include <algorithm>
 #include <span>
-#include <utility>
-#include <vector>
 
 namespace rota::detail {
 
@@ -19,27 +17,25 @@ public:
     agent_id who{};
     message_number last{};
     instant heard{};  // when that message was accepted
+
+    /// Whether it was not heard for so long, if ever, that it may begin a new life with any number.
+    [[nodiscard]] bool forgotten(instant now, duration forget) const {
+      return last.incarnation.value == 0 || now - heard > forget;
+    }
     friend bool operator==(peer const&, peer const&) = default;
   };
 
   roster(agent_id self, std::span<agent_id const> everybody) {
-    std::vector<agent_id> sorted(everybody.begin(), everybody.end());
-    std::sort(sorted.begin(), sorted.end());
-    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    for (agent_id b : sorted)
-      if (!(b == self)) peers_.push_back({b, {}});
+    for (agent_id b : everybody)
+      if (!(b == self)) peers_.at(b);
   }
 
   /// O(log roster).
-  [[nodiscard]] peer const* find(agent_id b) const {
-    auto const where =
-        std::lower_bound(peers_.begin(), peers_.end(), b, [](peer const& p, agent_id key) { return p.who < key; });
-    return where != peers_.end() && where->who == b ? &*where : nullptr;
-  }
-  [[nodiscard]] peer* find(agent_id b) { return const_cast<peer*>(std::as_const(*this).find(b)); }
+  [[nodiscard]] peer const* find(agent_id b) const { return peers_.find(b); }
+  [[nodiscard]] peer* find(agent_id b) { return peers_.find(b); }
   /// Moves all instants by d: the clock has been set.
   void shift(duration d) noexcept {
-    for (peer& p : peers_) p.heard = p.heard + d;
+    for (peer& p : peers_) p.heard += d;
   }
 
   template <class Digest>
@@ -49,7 +45,7 @@ public:
   friend bool operator==(roster const&, roster const&) = default;
 
 private:
-  std::vector<peer> peers_;  // ascending by id
+  by_agent<peer, &peer::who, 8> peers_;
 };
 
 }  // namespace rota::detail

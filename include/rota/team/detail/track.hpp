@@ -5,7 +5,7 @@
 #include <rota/team/belief.hpp>
 
 #include <algorithm>
-#include <limits>
+#include <cstdint>
 #include <utility>
 
 namespace rota::detail {
@@ -20,8 +20,8 @@ struct track {
   belief<V> believed;
   Monitor monitor;
   authority<V> rule;
-  claim_stamp<V> stamp{};  // of this robot's claims; not computed anew before `frozen_until`
-  instant frozen_until{(std::numeric_limits<std::int64_t>::min)()};  // the end of the last claim that it knows of
+  claim_stamp<V> stamp{};           // of this robot's claims; not computed anew before `frozen_until`
+  instant frozen_until = long_ago;  // the end of the last claim that it knows of
   bool executing = false;
   bool lapsed = false;  // a reign has ended since the last deliberation
   bool blind = false;   // the last deliberation found no valid allocation: it neither counts cycles, claims nor answers
@@ -94,12 +94,32 @@ struct track {
     }
   }
 
+  /// The stamp of a claim made now by `self`. It stays the same for as long as any claim it knows of can live.
+  claim_stamp<V> stamp_at(std::uint32_t confidence, agent_id self, instant now) {
+    if (now >= frozen_until) stamp = {confidence, self};
+    return stamp;
+  }
+  void freeze(instant until) { frozen_until = (std::max)(frozen_until, until); }
+  /// Time since b was last heard; just over `silence` if b has left or was deleted since the leader deliberated.
+  [[nodiscard]] duration age_of(agent_id b, agent_id self, instant now, duration silence) const {
+    if (b == self) return {};
+    return believed.takes_part(b) ? now - believed.heard(b) : silence + nanoseconds(1);
+  }
+  /// Of the believed allocation; 0 where atoms have no code.
+  [[nodiscard]] std::uint32_t fingerprint() const {
+    if constexpr (encodable_atom<in<V>>) {
+      return believed.fingerprint();
+    } else {
+      return 0;
+    }
+  }
+
   /// Moves all instants by d: the clock has been set.
   void shift(duration d) noexcept {
     believed.shift(d);
     monitor.shift(d);
     rule.shift(d);
-    if (frozen_until.ns != (std::numeric_limits<std::int64_t>::min)()) frozen_until = frozen_until + d;
+    frozen_until = moved(frozen_until, d);
   }
 
   template <class Digest>

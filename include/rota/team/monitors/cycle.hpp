@@ -1,8 +1,8 @@
 #pragma once
 
+#include <rota/team/detail/by_agent.hpp>
 #include <rota/team/monitors/verdict.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -25,20 +25,17 @@ public:
   /// Takes in what a message changed about its sender. Rules ii, iv, v. O(senders watched).
   void on_message(part_change<V> const& change, instant now) {
     bool const agreeing = change.empty();
-    watch* w = find(change.agent);
-    if (!w) {
-      if (agreeing) return;
-      w = insert(change.agent);
-    }
-    if (w->open && !w->deliberated) {
-      if (!agreeing && change.after == w->old_part) w->open = false;
+    if (agreeing && !watches_.find(change.agent)) return;
+    watch& w = watches_.at(change.agent);
+    if (w.open && !w.deliberated) {
+      if (!agreeing && change.after == w.old_part) w.open = false;
       return;
     }
-    if (agreeing || w->open) w->count = 0;
-    w->open = !agreeing;
-    w->deliberated = false;
-    w->old_part = change.before;
-    w->opened = now;
+    if (agreeing || w.open) w.count = 0;
+    w.open = !agreeing;
+    w.deliberated = false;
+    w.old_part = change.before;
+    w.opened = now;
   }
 
   /// The receiver has deliberated and now believes in `atoms`. Rule iii. On a detection everything is cleared.
@@ -65,9 +62,7 @@ public:
 
   void clear() noexcept { watches_.clear(); }
   /// Forgets b, which was deleted from the team.
-  void forget(agent_id b) {
-    if (watch* const w = find(b)) watches_.erase(w);
-  }
+  void forget(agent_id b) { watches_.erase(b); }
   /// Moves all instants by d: the clock has been set.
   void shift(duration d) noexcept {
     for (watch& w : watches_) w.opened = w.opened + d;
@@ -95,22 +90,8 @@ private:
     friend bool operator==(watch const&, watch const&) = default;
   };
 
-  watch* lower(agent_id b) {
-    return std::lower_bound(watches_.begin(), watches_.end(), b,
-                            [](watch const& w, agent_id key) { return w.sender < key; });
-  }
-  watch* find(agent_id b) {
-    watch* const w = lower(b);
-    return w != watches_.end() && w->sender == b ? w : nullptr;
-  }
-  watch* insert(agent_id b) {
-    watch fresh;
-    fresh.sender = b;
-    return watches_.insert(lower(b), fresh);
-  }
-
   monitor_options options_;
-  small_vector<watch, 8> watches_;  // ascending by sender
+  detail::by_agent<watch, &watch::sender, 8> watches_;
 };
 
 }  // namespace rota

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <rota/team/detail/by_agent.hpp>
 #include <rota/team/monitors/verdict.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -26,10 +26,9 @@ public:
 
   /// Takes in what a message changed about its sender: `change.after` is what it says. O(senders watched).
   void on_message(part_change<V> const& change, instant now) {
-    watch* w = find(change.agent);
-    if (!w) w = insert(change.agent);
-    w->said = change.after;
-    w->heard = now;
+    watch& w = watches_.at(change.agent);
+    w.said = change.after;
+    w.heard = now;
   }
 
   /// The receiver has deliberated and now believes in `atoms`. On a detection everything is cleared.
@@ -60,9 +59,7 @@ public:
 
   void clear() noexcept { watches_.clear(); }
   /// Forgets b, which was deleted from the team.
-  void forget(agent_id b) {
-    if (watch* const w = find(b)) watches_.erase(w);
-  }
+  void forget(agent_id b) { watches_.erase(b); }
   /// Moves all instants by d: the clock has been set.
   void shift(duration d) noexcept {
     for (watch& w : watches_) {
@@ -74,7 +71,7 @@ public:
   template <class Digest>
   void digest_into(Digest& d) const {
     for (watch const& w : watches_) {
-      d(w.sender, w.said.has_value(), w.heard, w.count, w.last, w.overridden.plan, w.overridden.task);
+      d(w.sender, w.said.has_value(), w.heard, w.count, w.last, w.yielded, w.overridden.plan, w.overridden.task);
       if (w.said) d(w.said->plan, w.said->task);
     }
     d(watches_.size());
@@ -94,22 +91,8 @@ private:
     friend bool operator==(watch const&, watch const&) = default;
   };
 
-  watch* lower(agent_id b) {
-    return std::lower_bound(watches_.begin(), watches_.end(), b,
-                            [](watch const& w, agent_id key) { return w.sender < key; });
-  }
-  watch* find(agent_id b) {
-    watch* const w = lower(b);
-    return w != watches_.end() && w->sender == b ? w : nullptr;
-  }
-  watch* insert(agent_id b) {
-    watch fresh;
-    fresh.sender = b;
-    return watches_.insert(lower(b), fresh);
-  }
-
   monitor_options options_;
-  small_vector<watch, 8> watches_;  // ascending by sender
+  detail::by_agent<watch, &watch::sender, 8> watches_;
 };
 
 }  // namespace rota
