@@ -32,10 +32,11 @@ public:
   }
   static bool takes(peers::additive_instance const&) { return true; }
   bool solve() override {
-    found_ = solver().solve(instance_);
-    return found_.status == rota::dense::status::optimal;
+    auto const found = solver().solve(instance_);
+    assignment_ = found.assignment;
+    return found.status == rota::dense::status::optimal;
   }
-  peers::assignment answer() const override { return {found_.assignment.begin(), found_.assignment.end()}; }
+  peers::assignment answer() const override { return {assignment_.begin(), assignment_.end()}; }
 
 private:
   static rota::dense::flow_solver& solver() {
@@ -47,7 +48,7 @@ private:
 
 protected:
   rota::dense::instance instance_;
-  rota::dense::outcome found_;
+  std::span<rota::dense::slot const> assignment_;
 };
 
 /// The same, content with any optimum where there are several.
@@ -93,10 +94,11 @@ public:
         instance_{in.agents, in.unary, couplings_, bounds_} {}
   static bool takes(peers::pairwise_instance const&) { return true; }
   bool solve() override {
-    found_ = solver().solve(instance_);
-    return found_.status == rota::dense::status::optimal;
+    auto const found = solver().solve(instance_);
+    assignment_ = found.assignment;
+    return found.status == rota::dense::status::optimal;
   }
-  peers::assignment answer() const override { return {found_.assignment.begin(), found_.assignment.end()}; }
+  peers::assignment answer() const override { return {assignment_.begin(), assignment_.end()}; }
 
 private:
   static rota::dense::pair_solver& solver() {
@@ -107,7 +109,7 @@ private:
   std::vector<rota::dense::slot_bounds> bounds_;
   std::vector<rota::dense::coupling> couplings_;
   rota::dense::pair_instance instance_;
-  rota::dense::outcome found_;
+  std::span<rota::dense::slot const> assignment_;
 };
 
 }  // namespace ours

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
 #include <utility>
 
@@ -28,7 +27,7 @@ public:
 
   flow_outcome resolve(instance const& in, std::span<row_index const> changed, work_limit const& limit) {
     flow_outcome out;
-    if (warm_ && graph_.adopt(in) && replace(in, changed) && !tighten(in)) {
+    if (warm_ && graph_.adopt(in) && replace(in, changed) && tighten(in).obstacle == flow_obstacle::none) {
       graph_.open_places(agents_);
       out = finish(in, limit, true);
     }
@@ -48,9 +47,9 @@ private:
     warm_ = false;
     agents_ = 0;
     for (std::size_t a = 0; a < in.agents; ++a) agents_ += in.takes_part(a);
-    if (auto const out = tighten(in)) return *out;
+    if (auto const w = tighten(in); w.obstacle != flow_obstacle::none) return refused(w);
     if (in.slot_count() == 0) return placed(status::optimal, 0, 0, false);
-    if (!opening_.play(graph_, agents_, limit)) return refused(flow_obstacle::agent_stuck, opening_.homeless());
+    if (!opening_.play(graph_, agents_, limit)) return refused({flow_obstacle::agent_stuck, opening_.homeless()});
     return finish(in, limit, false);
   }
 
@@ -68,24 +67,31 @@ private:
     return true;
   }
 
-  [[nodiscard]] flow_outcome refused(flow_obstacle obstacle, std::size_t witness) const {
-    flow_outcome out;
+  /// Why there is no assignment, and of what this is true.
+  struct obstruction {
+    flow_obstacle obstacle = flow_obstacle::none;
+    std::size_t witness = 0;
+  };
+  [[nodiscard]] flow_outcome refused(obstruction why) const {
+    auto out = counted();
     out.status = status::infeasible;
     out.bound = no_value;
-    out.obstacle = obstacle;
-    out.witness = witness;
-    return counted(out);
+    out.obstacle = why.obstacle;
+    out.witness = why.witness;
+    return out;
   }
   [[nodiscard]] flow_outcome placed(status how, value worth, value bound, bool warm) const {
-    flow_outcome out;
+    auto out = counted();
     out.status = how;
     out.assignment = graph_.who().homes();
     out.value = worth;
     out.bound = bound;
     out.warm = warm;
-    return counted(out);
+    return out;
   }
-  [[nodiscard]] flow_outcome counted(flow_outcome out) const {
+  /// An outcome that says so far only what was done.
+  [[nodiscard]] flow_outcome counted() const {
+    flow_outcome out;
     out.work.searches = graph_.done().searches;
     out.work.augmentations = graph_.done().augmentations;
     out.work.relaxations = graph_.done().relaxations;
@@ -93,21 +99,21 @@ private:
   }
 
   /// Sets the bounds that the number of agents implies: a slot must take the agents that the others cannot, and cannot take
-  /// those that the others need. @return a refusal if they contradict each other
-  std::optional<flow_outcome> tighten(instance const& in) {
+  /// those that the others need. @return an obstruction if they contradict each other
+  obstruction tighten(instance const& in) {
     value least = 0;
     value most = 0;
     for (auto const b : in.bounds) least += b.lower, most += b.upper;
     auto const n = static_cast<value>(agents_);
-    if (n > most) return refused(flow_obstacle::agent_stuck, first_taking_part(in));
+    if (n > most) return {flow_obstacle::agent_stuck, first_taking_part(in)};
     for (std::size_t k = 0; k < in.slot_count(); ++k) {
       auto const [lower, upper] = in.bounds[k];
       value const implied_upper = n - (least - value{lower});
-      if (lower > upper || value{lower} > implied_upper) return refused(flow_obstacle::slot_short, k);
+      if (lower > upper || value{lower} > implied_upper) return {flow_obstacle::slot_short, k};
       graph_.set_bounds(k, {static_cast<std::uint32_t>((std::max)(value{lower}, n - (most - value{upper}))),
                             static_cast<std::uint32_t>((std::min)(value{upper}, implied_upper))});
     }
-    return std::nullopt;
+    return {};
   }
   [[nodiscard]] static std::size_t first_taking_part(instance const& in) {
     std::size_t a = 0;
@@ -175,11 +181,11 @@ private:
     if (stuck == graph_.sink()) {
       std::size_t k = 0;
       while (graph_.room(k) <= 0) ++k;
-      return refused(flow_obstacle::slot_short, k);
+      return refused({flow_obstacle::slot_short, k});
     }
     auto least = graph_.who().first(stuck);
     for (auto a = least; a != membership::nobody; a = graph_.who().next(a)) least = (std::min)(least, a);
-    return refused(flow_obstacle::agent_stuck, least);
+    return refused({flow_obstacle::agent_stuck, least});
   }
 
   slot_graph graph_;
