@@ -125,11 +125,11 @@ public:
                  duration max_delay) {
     known* const k = known_.find(leader);
     if (!k || k->over) return false;
-    if (k->last.incarnation > incarnation) {  // of a life that it does not live: a forgery, unless the message is late
+    if (k->last > identity{incarnation, made}) {  // it has not made this claim: a forgery, unless the message is late
       if (now - k->expiry > max_delay) known_.erase(leader);
       return false;
     }
-    if (k->last.incarnation == incarnation && (k->last.number > made || k->last.number == leads)) return false;
+    if (k->last == identity{incarnation, leads}) return false;
     k->over = true;
     if (!obeying() || !(claim_.leader == leader)) return false;
     phase_ = phase::none;

@@ -131,8 +131,8 @@ public:
     auto* const sender = peers_.find(m.sender);
     if (auto const reason = admission().refuses(m, sender, now); reason != refusal::none) return dropped(reason);
     ROTA_ASSERT(sender != nullptr);  // or it would have been a stranger
-    bool const new_life = sender->forgotten(now, options_.forget);
-    if (!new_life && m.number <= sender->last) return dropped();
+    bool const new_life = m.number <= sender->last;
+    if (new_life && !sender->forgotten(now, options_.forget)) return dropped();
     synchronise(now);
     if (new_life)
       for (track& t : tracks_) t.rule.forget(m.sender);
@@ -190,15 +190,15 @@ public:
     }
     t.freeze(now + c.remaining);
     if (heard.outcome == claim_outcome::challenged) {
-      (void)t.admit_all(c, now, options_.silence);
+      (void)t.admit_all(c, now, options_.silence, options_.max_delay);
       // No longer than the claim that it answers: all authority that follows from one detection ends together. A
       // deliberation before `due` sends it at once.
       lead(t, now, now + options_.claim_period, now + (std::min)(options_.reign, c.remaining));
     } else if (t.rule.obeying() && heard.outcome != claim_outcome::outranked) {
       if (!was_active) t.monitor.clear();
       r.relay = heard.fresh;
-      auto const atoms =
-          t.admit_all(c.version == t.rule.current().version ? c : t.rule.current(), now, options_.silence);
+      auto const atoms = t.admit_all(c.version == t.rule.current().version ? c : t.rule.current(), now,
+                                     options_.silence, options_.max_delay);
       r.imposed = difference(t.believed.atoms(), atoms);
       t.obey(atoms, r.imposed);
     }

@@ -60,13 +60,15 @@ struct track {
   }
 
   /// Admits the leader, and each claimed agent that the leader has heard within `silence`. Only the leader itself has given a
-  /// sign of life. @return the claim's allocation, without agents that do not take part @pre as many ages as atoms
-  allocation_atoms<V> admit_all(claim<V> const& c, instant now, duration silence) {
+  /// sign of life. The claim may have been under way for `max_delay`, so ages count from then: or else who is dead would
+  /// grow younger with every leader that passes it on.
+  /// @return the claim's allocation, without agents that do not take part @pre as many ages as atoms
+  allocation_atoms<V> admit_all(claim<V> const& c, instant now, duration silence, duration max_delay) {
     believed.admit(c.leader, now);
     small_vector<in<V>, 8> alive;
     for (std::size_t i = 0; i < c.atoms.size(); ++i) {
       in<V> const& x = c.atoms.begin()[i];
-      if (c.ages[i] <= silence) believed.admit(x.agent, now - c.ages[i]);
+      if (c.ages[i] <= silence - max_delay) believed.admit(x.agent, now - c.ages[i] - max_delay);
       if (believed.takes_part(x.agent)) alive.push_back(x);
     }
     return allocation_atoms<V>::from_ascending(std::move(alive));
