@@ -6,6 +6,7 @@ namespace rota::sim {
 
 enum class scenario : unsigned char;
 enum class happening : unsigned char;
+enum class invariant : unsigned char;
 struct point;
 struct world_state;
 struct perceived;
@@ -13,10 +14,16 @@ struct playbook;
 struct log_record;
 struct figures;
 struct timing_figures;
+struct faults;
+struct promises;
+struct violation;
+struct campaign_run;
 class robot_clock;
 class network;
+class interference;
 class sensor;
 class duel_world;
 class scripted_world;
+class restless_world;
 
 }  // namespace rota::sim

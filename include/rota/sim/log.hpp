@@ -14,6 +14,9 @@ namespace rota::sim {
 /// What happened to a robot, or what it did.
 enum class happening : unsigned char {
   entered,      ///< it began to execute the plan type, alone
+  left,         ///< it stopped executing the plan type
+  crashed,      ///< it has lost all that it knew, and does nothing any more
+  restarted,    ///< it lives again; that it enters comes next
   deliberated,  ///< `change` is by deletion and reallocation; `cycles` and `detected` are from the monitor
   heard_plan,   ///< it received a plan message of `other`; `change` is e_m
   heard_claim,  ///< it received a claim of `other`; `change` is what the claim imposed
@@ -24,8 +27,9 @@ enum class happening : unsigned char {
 };
 
 [[nodiscard]] constexpr std::string_view to_string(happening h) noexcept {
-  constexpr std::string_view words[] = {"entered",   "deliberated", "heard-plan",  "heard-claim",
-                                        "said-plan", "said-claim",  "reign-began", "reign-ended"};
+  constexpr std::string_view words[] = {"entered",     "left",        "crashed",     "restarted",
+                                        "deliberated", "heard-plan",  "heard-claim", "said-plan",
+                                        "said-claim",  "reign-began", "reign-ended"};
   return words[static_cast<std::size_t>(h)];
 }
 
@@ -43,6 +47,10 @@ struct log_record {
   bool leading = false;  ///< whether the robot leads afterwards
   bool superseded = false;
   std::optional<claim_outcome> claim{};
+  message<names> const* content = nullptr;    ///< what was heard or said
+  rota::verdict verdict = verdict::accepted;  ///< on what was heard
+  refusal reason = refusal::none;             ///< … if it was refused
+  bool genuine = true;                        ///< what was heard is what `other` has said
 };
 
 template <class F>

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -69,8 +68,8 @@ struct figures {
 
 /// Counts while a simulation runs, from `begin` on.
 ///
-/// * in conflict: two of the robots believe in different allocations (Def. 2, either direction), measured to the nanosecond.
-///   Beliefs are compared when everything that happens at one instant has happened.
+/// * in conflict: two of the robots that execute the plan type believe in different allocations (Def. 2, either direction),
+///   measured to the nanosecond. Beliefs are compared when everything that happens at one instant has happened.
 /// * episode: from the beginning of a conflict to the beginning of the first agreement that then lasts `calm`. `begin` and
 ///   the end of the run cut episodes off; the agreement at the end of the run may be shorter than `calm`.
 /// * reign: a robot begins to lead within the measured time, and `calm` later it has not turned to a greater claim and the
@@ -84,7 +83,11 @@ public:
 
   /// `simulation` must outlive the metrics.
   metrics(Simulation const& simulation ROTA_LIFETIMEBOUND, instant begin)
-      : simulation_(simulation), begin_(begin), beliefs_(simulation.size()), reigns_(simulation.size()) {
+      : simulation_(simulation),
+        begin_(begin),
+        beliefs_(simulation.size()),
+        absent_(simulation.size()),
+        reigns_(simulation.size()) {
     figures_.led.resize(simulation.size());
   }
 
@@ -92,7 +95,10 @@ public:
 
   void operator()(log_record const& r) {
     pass_to(r.time);
-    if (!r.change.empty() || r.what == happening::entered) {
+    bool const comes = r.what == happening::entered;
+    bool const goes = r.what == happening::left || r.what == happening::crashed;
+    if (comes || goes) absent_[r.robot] = goes;
+    if (!r.change.empty() || comes || goes) {
       beliefs_[r.robot] = r.believed;
       stale_ = true;
     }
@@ -116,6 +122,9 @@ public:
       mine = {};
       break;
     case happening::entered:
+    case happening::left:
+    case happening::crashed:
+    case happening::restarted:
     case happening::heard_plan:
     case happening::heard_claim: break;
     }
@@ -143,8 +152,7 @@ private:
     if (t <= now_) return;
     if (stale_) {
       stale_ = false;
-      bool const conflict =
-          std::adjacent_find(beliefs_.begin(), beliefs_.end(), std::not_equal_to<>()) != beliefs_.end();
+      bool const conflict = disagreement();
       if (conflict != conflict_) turn(conflict, now_);
     }
     if (now_ < begin_ && begin_ <= t && conflict_) episode_ = begin_;
@@ -152,6 +160,16 @@ private:
     now_ = t;
   }
 
+  /// Whether two of those that execute the plan type believe in different allocations.
+  [[nodiscard]] bool disagreement() const {
+    allocation_atoms<names> const* first = nullptr;
+    for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+      if (absent_[i]) continue;
+      if (first && *first != beliefs_[i]) return true;
+      first = &beliefs_[i];
+    }
+    return false;
+  }
   void turn(bool conflict, instant t) {
     conflict_ = conflict;
     if (!conflict) {
@@ -187,6 +205,7 @@ private:
   instant begin_;
   instant now_{};
   std::vector<allocation_atoms<names>> beliefs_;
+  std::vector<bool> absent_;
   bool stale_ = false;
   bool conflict_ = false;
   std::optional<instant> episode_;

@@ -33,6 +33,7 @@ struct sensor_options {
 struct perceived {
   point ball;
   std::vector<point> robots;  ///< index 0 is the robot with id 1
+  bool blind = false;         ///< it sees nothing: it can judge no task
 };
 
 /// Writes the beliefs of a robot that knows the truth.

@@ -85,6 +85,7 @@ struct playbook {
     others += attack ? 0 : 1;
   }
   return [homes = std::move(homes), w](names::agent a, names::task t, perceived const& seen) -> std::optional<double> {
+    if (seen.blind) return std::nullopt;
     point const at = seen.robots[a.value - 1];
     for (auto const& [task, home] : homes)
       if (task == t) return home ? pay(distance(at, *home), w.other) : pay(distance(at, seen.ball), 1);

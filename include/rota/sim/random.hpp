@@ -12,7 +12,7 @@ namespace rota::sim {
 using random_engine = boost::random::mt19937_64;
 
 /// The use of a stream of random numbers. Streams never mix, so a change in one use leaves the others as they were.
-enum class stream : std::uint64_t { clock = 1, world, perception, network };
+enum class stream : std::uint64_t { clock = 1, world, perception, network, faults, campaign };
 
 /// The finaliser of SplitMix64: a bijection that scatters neighbouring numbers.
 [[nodiscard]] constexpr std::uint64_t scatter(std::uint64_t x) noexcept {
