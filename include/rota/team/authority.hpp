@@ -200,6 +200,7 @@ public:
     if (active()) {
       d(claim_.leader, claim_.incarnation.value, claim_.number, claim_.version, claim_.stamp.confidence, expiry_);
       for (auto const& x : claim_.atoms) d(x.agent, x.plan, x.task);
+      if (obeying()) d.all(claim_.ages);
     }
     if (leading()) d(began_, next_repeat_, said_);
     for (known const& k : known_)

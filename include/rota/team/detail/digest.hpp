@@ -27,6 +27,11 @@ public:
     mix(static_cast<std::uint64_t>(moved(t, instant{} - now_).ns));
     return *this;
   }
+  /// An instant that decides nothing once it is past.
+  constexpr state_digest& until(instant t) noexcept {
+    mix(t > now_ ? static_cast<std::uint64_t>(t.ns - now_.ns) : 0);
+    return *this;
+  }
   constexpr state_digest& operator()(duration d) noexcept {
     mix(static_cast<std::uint64_t>(d.ns));
     return *this;

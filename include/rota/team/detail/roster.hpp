@@ -40,7 +40,10 @@ public:
 
   template <class Digest>
   void digest_into(Digest& d) const {
-    for (peer const& p : peers_) d(p.who, p.last.incarnation.value, p.last.sequence, p.heard);
+    for (peer const& p : peers_) {
+      d(p.who, p.last.incarnation.value);
+      if (p.last.incarnation.value != 0) d(p.last.sequence, p.heard);
+    }
   }
   friend bool operator==(roster const&, roster const&) = default;
 

@@ -126,7 +126,7 @@ struct track {
 
   template <class Digest>
   void digest_into(Digest& d) const {
-    d(names.type(), believed, monitor, rule, stamp.confidence, frozen_until, executing, lapsed, blind);
+    d(names.type(), believed, monitor, rule, stamp.confidence, executing, lapsed, blind).until(frozen_until);
   }
   friend bool operator==(track const&, track const&) = default;
 };

@@ -71,10 +71,11 @@ public:
   template <class Digest>
   void digest_into(Digest& d) const {
     for (watch const& w : watches_) {
-      d(w.sender, w.old_part.has_value(), w.opened, w.count, w.open, w.deliberated);
-      if (w.old_part) d(w.old_part->plan, w.old_part->task);
+      if (!w.open && w.count == 0) continue;
+      d(w.sender, w.opened, w.count, w.open);
+      if (w.open) d(w.deliberated, w.old_part.has_value());
+      if (w.open && w.old_part) d(w.old_part->plan, w.old_part->task);
     }
-    d(watches_.size());
   }
   friend bool operator==(cycle_monitor const&, cycle_monitor const&) = default;
 

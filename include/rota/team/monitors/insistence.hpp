@@ -71,8 +71,9 @@ public:
   template <class Digest>
   void digest_into(Digest& d) const {
     for (watch const& w : watches_) {
-      d(w.sender, w.said.has_value(), w.heard, w.count, w.last, w.yielded, w.overridden.plan, w.overridden.task);
-      if (w.said) d(w.said->plan, w.said->task);
+      d(w.sender, w.said.has_value(), w.count);
+      if (w.said) d(w.heard, w.said->plan, w.said->task);
+      if (w.count > 0) d(w.last, w.yielded, w.overridden.plan, w.overridden.task);
     }
     d(watches_.size());
   }
