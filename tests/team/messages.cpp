@@ -2,8 +2,13 @@
 
 #include "playground.hpp"
 
+#include <rota/team/wire.hpp>
+
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -200,6 +205,65 @@ TEST_F(messages, a_claim_that_mixes_plans_is_malformed) {
   auto c = claim_by(9, 1);
   c.atoms.insert({agent(2), soccer::plan::kickoff, attack});
   EXPECT_EQ(a.receive(c, start).reason, refusal::malformed_allocation);
+}
+
+/// What a robot believes before it deliberates may mix plans, and nobody has judged it.
+TEST_F(messages, an_answer_says_what_a_deliberation_chose) {
+  auto const worth = rota::additive_utility<soccer, view>([](auto, auto, view const&) { return std::optional(1.0); });
+  using plan = rota::plan<soccer, view>;
+  std::vector<rota::plan_task<soccer>> const tasks{{attack, {0, 1}, {}}, {defend, {0, 9}, {}}};
+  auto const two = *rota::plan_type<soccer, view>::make(
+      play_id, {*plan::make({.plan = soccer::plan::normal, .tasks = tasks, .utility = worth}),
+                *plan::make({.plan = soccer::plan::kickoff, .tasks = tasks, .utility = worth})});
+  auto const entered = [&](int n) {
+    robot r(agent(n), squad(9), first_life);
+    r.enter(two, start);
+    return r;
+  };
+  robot a = entered(9), b = entered(2);
+  a.receive(says(2, 1, attack), start);
+  auto other = says(3, 1, defend);
+  other.types[0].place->plan = soccer::plan::kickoff;
+  a.receive(other, start);
+  ASSERT_EQ(a.receive(claim_by(8, 8), start).claim, rota::claim_outcome::challenged);
+  for (int ms = 0; ms < 500; ms += 10) {
+    auto const now = start + milliseconds(ms);
+    if (ms % 30 == 0) {
+      EXPECT_EQ(a.receive(claim_by(8, 8), now).claim, rota::claim_outcome::outranked);
+    }
+    while (auto m = a.next_message(now)) EXPECT_TRUE(std::holds_alternative<plan_message>(*m)) << ms;
+    EXPECT_GT(a.next_due(), now);
+  }
+  auto const now = start + milliseconds(500);
+  (void)a.deliberate(two, members, sees(9), now, space);
+  EXPECT_LE(a.next_due(), now);
+  auto const m = a.next_message(now);
+  ASSERT_TRUE(m && std::holds_alternative<claim>(*m));
+  EXPECT_EQ(b.receive(*m, now).claim, rota::claim_outcome::adopted);
+}
+
+/// Messages count microseconds. A claim with less left would say that none is left, and be refused.
+TEST_F(messages, the_last_claim_of_a_reign_has_a_microsecond_left) {
+  rota::robot_options options;
+  options.claim_period = rota::nanoseconds(100);
+  options.message_period = rota::seconds(100);
+  auto a = in_play(9, options), b = in_play(2);
+  ASSERT_EQ(a.receive(claim_by(8, 8), start).claim, rota::claim_outcome::challenged);
+  (void)think(a, sees(9), start + milliseconds(1990));
+  std::array<std::byte, 256> buffer{};
+  auto const end = start + rota::seconds(2);
+  rota::duration least = rota::seconds(2);
+  for (auto now = end - rota::microseconds(5); now < end; now = now + rota::nanoseconds(50)) {
+    while (auto const m = a.next_message(now)) {
+      if (!std::holds_alternative<claim>(*m)) continue;
+      auto const arrived = rota::decode<soccer>(std::span(buffer).first(*rota::encode(*m, buffer)));
+      EXPECT_EQ(b.receive(*arrived, now).verdict, verdict::accepted) << (end - now).ns << " ns before the end";
+      least = std::get<claim>(*arrived).remaining;
+    }
+    EXPECT_GT(a.next_due(), now) << "or else a loop would not end";
+  }
+  EXPECT_EQ(least, rota::microseconds(1));
+  EXPECT_EQ(a.next_due(), end);
 }
 
 TEST_F(messages, no_message_whatever_breaks_it) {

@@ -45,6 +45,9 @@ class authority {
 public:
   using agent_id = typename V::agent;
 
+  /// A claim with less time left is not sent: messages count microseconds, and a claim with none left is refused.
+  static constexpr duration least_remaining = microseconds(1);
+
   /// Identifies a claim of one leader; ordered by age.
   struct identity {
     rota::incarnation incarnation{};
@@ -67,7 +70,8 @@ public:
     return expiry_;
   }
 
-  /// Begins to lead with claim number `number`, which is first due at `due`. @pre `!leading()`; numbers grow
+  /// Begins to lead with claim number `number`, which is first due at `due`. With `never` it is due once `revise` has
+  /// named the allocation. @pre `!leading()`; numbers grow
   void lead(typename V::plan_type type, allocation_atoms<V> atoms, claim_stamp<V> mine, rota::incarnation incarnation,
             std::uint64_t number, instant now, instant due, instant expiry) {
     ROTA_ASSERT(!leading());
@@ -170,12 +174,16 @@ public:
   }
 
   /// When the leader has to speak next; `never` for everybody else.
-  [[nodiscard]] instant next_due() const noexcept { return leading() ? next_repeat_ : never; }
+  [[nodiscard]] instant next_due() const noexcept {
+    if (!leading()) return never;
+    return next_repeat_ <= expiry_ - least_remaining ? next_repeat_ : (std::max)(next_repeat_, expiry_);
+  }
   /// The leader's claim if it is due, with the remaining time filled in; `ages` is left to the caller. It repeats every
-  /// `period`, and in the first `opening` of the reign every `opening_period`. O(|claim|).
+  /// `period`, and in the first `opening` of the reign every `opening_period`, but not with less than `least_remaining`
+  /// left. O(|claim|).
   [[nodiscard]] std::optional<claim<V>> next_claim(instant now, duration period, duration opening = {},
                                                    duration opening_period = {}) {
-    if (!leading() || now < next_repeat_ || now >= expiry_) return std::nullopt;
+    if (!leading() || now < next_repeat_ || now > expiry_ - least_remaining) return std::nullopt;
     next_repeat_ = now + (now - began_ < opening ? (std::min)(opening_period, period) : period);
     said_ = true;
     claim_.remaining = expiry_ - now;
@@ -236,7 +244,7 @@ private:
       return claim_outcome::revised;
     }
     if (active() && c.stamp < claim_.stamp) {
-      if (leading()) next_repeat_ = (std::min)(next_repeat_, now);
+      if (leading() && next_repeat_ != never) next_repeat_ = (std::min)(next_repeat_, now);
       return claim_outcome::outranked;
     }
     if (!active() && mine && c.stamp < *mine && !k.answered) {

@@ -165,7 +165,8 @@ public:
     return r;
   }
 
-  /// Obeys a greater claim, answers a smaller one with its own, and drops a claim that has ended. A claim is authoritative:
+  /// Obeys a greater claim, answers a smaller one with its own, and drops a claim that has ended. The answer is sent after the
+  /// next deliberation, which judges it. A claim is authoritative:
   /// each copy of the claim in force undoes what coming, going or silence has changed at this follower since; but it does not
   /// bring back whom its leader has not heard for `robot_options::silence`.
   /// The leader judges whether its allocation is valid, under its own beliefs. O(|claim| log roster).
@@ -191,9 +192,9 @@ public:
     t.freeze(now + c.remaining);
     if (heard.outcome == claim_outcome::challenged) {
       (void)t.admit_all(c, now, options_.silence, options_.max_delay);
-      // No longer than the claim that it answers: all authority that follows from one detection ends together. A
-      // deliberation before `due` sends it at once.
-      lead(t, now, now + options_.claim_period, now + (std::min)(options_.reign, c.remaining));
+      // No longer than the claim that it answers: all authority that follows from one detection ends together. What is
+      // believed now may mix plans, and nobody has judged it: the next deliberation says the answer.
+      lead(t, now, never, now + (std::min)(options_.reign, c.remaining));
     } else if (t.rule.obeying() && heard.outcome != claim_outcome::outranked) {
       if (!was_active) t.monitor.clear();
       r.relay = heard.fresh;
