@@ -52,6 +52,7 @@ TEST_F(print, every_value_of_every_enumeration_has_words_of_its_own) {
   each_has_words(rota::refusal::resolution_off);
   each_has_words(rota::claim_outcome::challenged);
   each_has_words(rota::decision_reason::obeyed);
+  each_has_words(rota::wire_fault::out_of_range);
 }
 
 TEST_F(print, messages_are_printed_in_the_notation_of_the_paper) {

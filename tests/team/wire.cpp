@@ -3,6 +3,7 @@
 
 #include "playground.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/messages.hpp"
 
 #include <rota/team/wire.hpp>
 
@@ -11,6 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -78,44 +81,7 @@ TEST(wire, is_short) {
   EXPECT_EQ(encoded(m).size(), encoded(a_plan_message()).size() + 4);
 }
 
-rc::Gen<std::uint64_t> any_number() {
-  return rc::gen::map(rc::gen::tuple(rc::gen::arbitrary<std::uint64_t>(), rc::gen::inRange(0, 64)),
-                      [](auto const& t) { return std::get<0>(t) >> std::get<1>(t); });
-}
-rc::Gen<message> any_message() {
-  return rc::gen::exec([] {
-    if (*rc::gen::arbitrary<bool>()) {
-      plan_message m{agent(*rc::gen::inRange(0, 256)), {{*any_number()}, *any_number()}, *any_number(), {}};
-      int const types = *rc::gen::weightedElement<int>({{2, 0}, {5, 1}, {3, 3}, {1, 9}});
-      for (int t = 0; t < types; ++t) {
-        rota::participation<soccer> p;
-        p.type = soccer::plan_type(*rc::gen::inRange(0, 256));
-        p.leads = *any_number();
-        if (*rc::gen::arbitrary<bool>())
-          p.place =
-              rota::placement<soccer>{soccer::plan(*rc::gen::inRange(0, 256)), soccer::task(*rc::gen::inRange(0, 256)),
-                                      soccer::state(*rc::gen::inRange(0, 256))};
-        if (*rc::gen::arbitrary<bool>()) p.fingerprint = static_cast<std::uint32_t>(*any_number());
-        m.types.push_back(p);
-      }
-      return message{m};
-    }
-    claim c;
-    c.type = soccer::plan_type(*rc::gen::inRange(0, 256));
-    for (atom x : *any_atoms(40, 12)) {
-      x.plan = soccer::plan::kickoff;
-      c.atoms.insert(x);
-    }
-    for (std::size_t i = 0; i < c.atoms.size(); ++i) c.ages.push_back(milliseconds(*rc::gen::inRange(0, 100'000)));
-    c.stamp = {static_cast<std::uint32_t>(*any_number()), agent(*rc::gen::inRange(0, 256))};
-    c.leader = agent(*rc::gen::inRange(0, 256));
-    c.incarnation = {*any_number()};
-    c.number = *any_number();
-    c.version = *any_number();
-    c.remaining = rota::microseconds(static_cast<std::int64_t>(*any_number() >> 12));
-    return message{c};
-  });
-}
+rc::Gen<message> any_message() { return rota_test::any_message<soccer>(); }
 
 TEST(wire, brings_back_what_was_said) {
   int long_ones = 0;
@@ -258,6 +224,69 @@ TEST(wire, neither_way_allocates) {
     EXPECT_EQ(rota_test::allocation_count() - before, 0u);
     EXPECT_TRUE(fine);
   }
+}
+
+/// One attacks, everybody else defends.
+rota::plan_type<soccer, view> play_for_six() {
+  using plan = rota::plan<soccer, view>;
+  rota::additive_utility<soccer, view> const worth = [](soccer::agent a, soccer::task t, view const& v) {
+    return std::optional<double>(t == attack ? v.attack[static_cast<std::size_t>(a)] : 0.125);
+  };
+  auto p = plan::make(
+      {.plan = soccer::plan::normal, .tasks = {{attack, {1, 1}, {}}, {defend, {0, 9}, {}}}, .utility = worth});
+  return *rota::plan_type<soccer, view>::make(play_id, {*p});
+}
+
+/// Six robots on the air in bytes, each message decoded by the five others; three are sure that they are closest, so that one
+/// leads, and claims about all six.
+TEST(wire, a_team_on_the_air_allocates_nothing) {
+  auto const play = play_for_six();
+  auto const members = make_team(6);
+  rota::workspace space;
+  std::vector<robot> team;
+  for (int n = 1; n <= 6; ++n) {
+    rota::robot_options options;
+    options.first_message = start + milliseconds(13 * n);
+    options.fingerprints = true;
+    team.emplace_back(agent(n), squad(6), rota::incarnation{1}, options).enter(play, start);
+  }
+  std::array<std::byte, 256> buffer{};
+  std::size_t claims_of_six = 0;
+  std::uint64_t thinking = 0, speaking = 0, writing = 0, reading = 0, hearing = 0;
+  auto const counted = [](std::uint64_t& sum, auto const& f) {
+    auto const before = rota_test::allocation_count();
+    f();
+    sum += rota_test::allocation_count() - before;
+  };
+  for (int ms = 0; ms < 20'000; ++ms) {
+    if (ms == 10'000) claims_of_six = 0, thinking = speaking = writing = reading = hearing = 0;  // now it is steady
+    auto const now = start + milliseconds(ms);
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (ms % 30 == static_cast<int>(4 * i))
+        counted(thinking, [&] { (void)team[i].deliberate(play, members, sees(i < 3 ? int(i) + 1 : 1), now, space); });
+      while (team[i].next_due() <= now) {
+        std::optional<message> m;
+        counted(speaking, [&] { m = team[i].next_message(now); });
+        if (!m) break;
+        if (auto const* c = std::get_if<claim>(&*m)) claims_of_six += c->atoms.size() == 6;
+        std::size_t size = 0;
+        counted(writing, [&] { size = *rota::encode(*m, buffer); });
+        for (std::size_t to = 0; to < 6; ++to) {
+          if (to == i) continue;
+          std::optional<rota::result<message, wire_fault>> back;
+          counted(reading, [&] { back = rota::decode<soccer>(std::span(buffer).first(size)); });
+          ASSERT_TRUE(*back);
+          counted(hearing, [&] { team[to].receive(**back, now); });
+        }
+      }
+    }
+  }
+  EXPECT_GT(claims_of_six, 20u);
+  EXPECT_EQ(thinking, 0u);
+  EXPECT_EQ(speaking, 0u);
+  EXPECT_EQ(writing, 0u);
+  EXPECT_EQ(reading, 0u);
+  EXPECT_EQ(hearing, 0u);
 }
 
 /// Bytes from anywhere, into a robot: decoded or not, nothing breaks.

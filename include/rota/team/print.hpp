@@ -8,6 +8,7 @@
 #include <rota/search/print.hpp>
 #include <rota/team/conflict.hpp>
 #include <rota/team/decision.hpp>
+#include <rota/team/reception_counts.hpp>
 #include <rota/team/wire.hpp>
 
 #include <cstddef>
@@ -94,6 +95,23 @@ namespace rota {
   case decision_reason::obeyed: return "a leader decides";
   }
   return "?";
+}
+
+/// `12 accepted, 3 stale, 2 refused: 1 because …, 1 because …`.
+[[nodiscard]] inline std::string to_string(reception_counts const& c) {
+  std::string out = std::to_string(c.accepted()) + " accepted, " + std::to_string(c.stale()) + " stale, " +
+                    std::to_string(c.refused()) + " refused";
+  auto separator = ": ";
+  auto const say = [&](std::uint64_t n, auto why) {
+    if (n == 0) return;
+    out += separator + std::to_string(n) + " because " + to_string(why);
+    separator = ", ";
+  };
+  for (std::size_t i = 0; i < reception_counts::wire_faults; ++i)
+    say(c.of(static_cast<wire_fault>(i)), static_cast<wire_fault>(i));
+  for (std::size_t i = 0; i < reception_counts::refusals; ++i)
+    say(c.of(static_cast<refusal>(i)), static_cast<refusal>(i));
+  return out;
 }
 
 /// Its number.

@@ -9,8 +9,11 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace rota {
@@ -39,6 +42,7 @@ enum class wire_fault : unsigned char {
 
 /// How an identifier becomes a number, and back: for enumerations, integers, and `strong_id` of them. Specialise it for
 /// yours: `static constexpr std::uint64_t most`, `to(id)`, `from(number)`, which is asked for numbers up to `most` only.
+/// An optional `is_signed` says that the number is a signed one, zigzag-coded: forms for people show that one.
 template <class Id>
 struct wire_id;
 
@@ -47,6 +51,7 @@ template <class Id>
 struct wire_id<Id> {
   using rep = typename std::conditional_t<std::is_enum_v<Id>, std::underlying_type<Id>, std::type_identity<Id>>::type;
   static constexpr std::uint64_t most = (std::numeric_limits<std::make_unsigned_t<rep>>::max)();
+  static constexpr bool is_signed = std::is_signed_v<rep>;
   [[nodiscard]] static constexpr std::uint64_t to(Id id) noexcept {
     if constexpr (std::is_signed_v<rep>) {
       return detail::zigzag(static_cast<std::int64_t>(id));
@@ -65,6 +70,7 @@ struct wire_id<Id> {
 template <class Tag, class Rep>
 struct wire_id<strong_id<Tag, Rep>> {
   static constexpr std::uint64_t most = wire_id<Rep>::most;
+  static constexpr bool is_signed = wire_id<Rep>::is_signed;
   [[nodiscard]] static constexpr std::uint64_t to(strong_id<Tag, Rep> id) noexcept {
     return wire_id<Rep>::to(id.value);
   }
@@ -93,6 +99,23 @@ template <vocabulary V>
   return w.size();
 }
 
+/// Why a message has no form, whatever the buffer.
+template <vocabulary V>
+[[nodiscard]] constexpr std::optional<wire_fault> unwritable(plan_message<V> const& m) noexcept {
+  return m.types.size() > m.most_types ? std::optional(wire_fault::too_many) : std::nullopt;
+}
+template <vocabulary V>
+[[nodiscard]] constexpr std::optional<wire_fault> unwritable(claim<V> const& c) noexcept {
+  if (c.atoms.size() > most_wire_atoms) return wire_fault::too_many;
+  if (c.ages.size() != c.atoms.size()) return wire_fault::unequal_ages;
+  if (c.remaining < duration{}) return wire_fault::negative_time;
+  for (std::size_t i = 0; i < c.atoms.size(); ++i) {
+    if (!(c.atoms.begin()[i].plan == c.atoms.begin()->plan)) return wire_fault::mixed_plans;
+    if (c.ages[i] < duration{}) return wire_fault::negative_time;
+  }
+  return std::nullopt;
+}
+
 [[nodiscard]] constexpr std::uint64_t round_up(duration d, std::int64_t unit) noexcept {
   return static_cast<std::uint64_t>(d.ns / unit + (d.ns % unit != 0 ? 1 : 0));
 }
@@ -102,7 +125,7 @@ template <vocabulary V>
 /// Writes a plan message. @return how many bytes; nothing is promised about `out` if it is refused
 template <vocabulary V>
 [[nodiscard]] result<std::size_t, wire_fault> encode(plan_message<V> const& m, std::span<std::byte> out) noexcept {
-  if (m.types.size() > m.most_types) return refused{wire_fault::too_many};
+  if (auto const fault = detail::unwritable(m)) return refused{*fault};
   detail::byte_writer w(out);
   w.byte(detail::wire_mark | wire_version << 1);
   detail::write(w, m.sender);
@@ -129,9 +152,7 @@ template <vocabulary V>
 /// have lived longer ago than it did loses nothing but a moment.
 template <vocabulary V>
 [[nodiscard]] result<std::size_t, wire_fault> encode(claim<V> const& c, std::span<std::byte> out) noexcept {
-  if (c.atoms.size() > most_wire_atoms) return refused{wire_fault::too_many};
-  if (c.ages.size() != c.atoms.size()) return refused{wire_fault::unequal_ages};
-  if (c.remaining < duration{}) return refused{wire_fault::negative_time};
+  if (auto const fault = detail::unwritable(c)) return refused{*fault};
   detail::byte_writer w(out);
   w.byte(detail::wire_mark | wire_version << 1 | detail::wire_claim);
   detail::write(w, c.type);
@@ -146,8 +167,6 @@ template <vocabulary V>
   if (!c.atoms.empty()) detail::write(w, c.atoms.begin()->plan);
   for (std::size_t i = 0; i < c.atoms.size(); ++i) {
     in<V> const& x = c.atoms.begin()[i];
-    if (!(x.plan == c.atoms.begin()->plan)) return refused{wire_fault::mixed_plans};
-    if (c.ages[i] < duration{}) return refused{wire_fault::negative_time};
     detail::write(w, x.agent);
     detail::write(w, x.task);
     w.number(detail::round_up(c.ages[i], 1'000'000));
