@@ -1,8 +1,13 @@
-// Any text as a plan file of either format: read or refused with a reason. What is read makes a plan, or says why not.
+// Any text as a plan file of either format, and as a message in JSON: read or refused with a reason. What is read makes a
+// plan, or says why not. A message that is read has bytes that say the same.
 #include "input.hpp"
+#include "pitch.hpp"
 
 #include <rota/adapters/alica.hpp>
+#include <rota/adapters/message_json.hpp>
 
+#include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -42,6 +47,21 @@ void check(std::string_view text, alica::file_kind kind) {
                       "what a sound file needs is there");
 }
 
+template <class V>
+void check_message(std::string_view text) {
+  auto const m = rota::read_json<V>(text);
+  if (!m) return fuzz::require(!m.error().place.empty() && !m.error().reason.empty(), "a refusal says what and where");
+  auto const again = rota::write_json(*m);
+  fuzz::require(bool(again), "what was read can be written");
+  auto const back = rota::read_json<V>(*again);
+  fuzz::require(back && *back == *m, "it reads back");
+  std::vector<std::byte> bytes(1 << 14);
+  auto const size = rota::encode(*m, std::span(bytes));
+  fuzz::require(bool(size), "what was read has bytes");
+  auto const decoded = rota::decode<V>(std::span(bytes).first(*size));
+  fuzz::require(decoded && *decoded == *m, "the bytes say the same");
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {
@@ -53,6 +73,9 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   constexpr std::string_view letters = "ptkrdb";
   auto const letter = letters.find(static_cast<char>(data[0]));
   auto const kind = kinds[letter == std::string_view::npos ? data[0] % 6 : letter];
-  check({reinterpret_cast<char const*>(data) + 1, size - 1}, kind);
+  std::string_view const text{reinterpret_cast<char const*>(data) + 1, size - 1};
+  check(text, kind);
+  check_message<fuzz::pitch>(text);
+  check_message<rota::runtime_vocabulary>(text);
   return 0;
 }
