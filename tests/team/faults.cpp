@@ -366,7 +366,7 @@ TEST_F(faults, forwarding_what_is_news_makes_a_line_a_team_and_ends) {
   }
 }
 
-TEST_F(faults, a_change_is_said_before_the_next_slot_if_so_wished) {
+TEST_F(faults, news_is_said_before_the_next_slot_if_so_wished_and_twice) {
   rota::robot_options options;
   options.message_period = milliseconds(500);
   options.change_period = milliseconds(50);
@@ -376,13 +376,34 @@ TEST_F(faults, a_change_is_said_before_the_next_slot_if_so_wished) {
   EXPECT_EQ(a.next_due(), at(50)) << "no more often than that";
   EXPECT_FALSE(a.next_message(at(49)));
   EXPECT_TRUE(a.next_message(at(50)));
-  EXPECT_EQ(a.next_due(), at(500)) << "nothing is new: the slow beat";
+  EXPECT_EQ(a.next_due(), at(100)) << "once more, as a message may be lost";
+  EXPECT_TRUE(a.next_message(at(100)));
+  EXPECT_EQ(a.next_due(), at(500)) << "nothing is news: the slow beat";
   (void)think(a, sees(1), at(110));
   EXPECT_EQ(a.next_due(), at(500));
-  a.receive(says(2, 1, defend), at(120));
-  (void)think(a, sees(2), at(120));
-  EXPECT_EQ(a.next_due(), at(100)) << "what it does has changed: due already";
-  EXPECT_TRUE(a.next_message(at(120)));
+  a.receive(says(2, 1, attack), at(120));
+  EXPECT_EQ(a.next_due(), at(500)) << "what others say is no news of one's own";
+  (void)think(a, sees(1), at(130));
+  EXPECT_EQ(a.next_due(), at(150)) << "but not to go along with it is, though the own task stays";
+  EXPECT_TRUE(a.next_message(at(150)));
+  EXPECT_TRUE(a.next_message(at(200)));
+  EXPECT_EQ(a.next_due(), at(500));
+}
+
+TEST_F(faults, a_disagreement_that_a_fingerprint_shows_is_answered_once) {
+  rota::robot_options options;
+  options.message_period = milliseconds(500);
+  options.change_period = milliseconds(50);
+  options.fingerprints = true;
+  auto a = in_play(1, options);
+  (void)think(a, sees(1), start);
+  for (int ms : {0, 50}) EXPECT_TRUE(a.next_message(at(ms)));
+  auto m = says(2, 1, defend);
+  m.types[0].fingerprint = 0;
+  EXPECT_EQ(a.receive(m, at(60)).disagreements.size(), 1u);
+  EXPECT_EQ(a.next_due(), at(100));
+  EXPECT_TRUE(a.next_message(at(100)));
+  EXPECT_EQ(a.next_due(), at(500));
 }
 
 TEST_F(faults, a_fingerprint_shows_from_one_message_that_two_believe_otherwise_of_a_third) {

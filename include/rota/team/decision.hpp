@@ -94,7 +94,9 @@ struct robot_options {
   duration reign = seconds(2);        ///< how long a claim of this robot holds
   duration max_reign = seconds(2);    ///< claims with more time left are refused; at least `reign`
   duration message_period = milliseconds(100);
-  duration change_period{};  ///< if positive, a change of what the robot does is said this soon after the last message
+  /// If positive, news is said this soon after the last message, and twice: the robot enters, leaves or leads, its
+  /// reallocation changed anything, or (once) a message's fingerprint differs. `sparing` of team/budget.hpp sets it.
+  duration change_period{};
   duration claim_period = milliseconds(100);   ///< how often a leader repeats an unchanged claim
   duration opening = milliseconds(200);        ///< for this long from its beginning, a claim is repeated
   duration opening_period = milliseconds(30);  ///< … every so often

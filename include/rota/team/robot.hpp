@@ -73,7 +73,7 @@ public:
     where->monitor = Monitor(monitor_options{options_.cycles, options_.pending_age, options_.yielding});
     where->believed = {};
     where->believed.admit(self_, now);
-    timetable_.note_change();
+    timetable_.note_news();
     return true;
   }
 
@@ -88,7 +88,7 @@ public:
     t->believed = {};
     t->monitor.clear();
     t->rule.release();
-    timetable_.note_change();
+    timetable_.note_news();
     return true;
   }
 
@@ -162,6 +162,7 @@ public:
       if (listed && said->fingerprint && *said->fingerprint != t.fingerprint())
         r.disagreements.push_back(t.names.type());
     }
+    if (!r.disagreements.empty()) timetable_.note_disagreement();
     return r;
   }
 
@@ -247,14 +248,14 @@ public:
       conclude(*t, d, now);
     }
     d.own = t->believed.part(self_);
-    timetable_.note_change(mentions(d.event, self_));
+    if (!d.event.empty() && !t->rule.active()) timetable_.note_news();
     if (t->rule.active()) d.leader = t->rule.current().leader;
     return d;
   }
 
   /// The next message that is due, claims first; call it until it returns nothing. Plan messages keep to a grid of
   /// `message_period` from `first_message` on, however late the call; a slot that was missed is not made up for. With
-  /// `change_period`, a change of what the robot does is said before the next slot.
+  /// `change_period`, news does not wait for its slot, and is said twice.
   [[nodiscard]] std::optional<message<V>> next_message(instant now) {
     synchronise(now);
     for (track& t : tracks_) {
@@ -339,7 +340,7 @@ private:
     auto const stamp = t.stamp_at(options_.confidence, self_, now);
     t.freeze(expiry);
     t.rule.lead(t.names.type(), t.believed.atoms(), stamp, incarnation_, ++claims_, now, due, expiry);
-    timetable_.note_change();
+    timetable_.note_news();
   }
   /// What follows from a search: a leader says it; everybody else looks for a loop, and claims if there is one. Who sees
   /// nothing valid does neither.

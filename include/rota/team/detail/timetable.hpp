@@ -8,7 +8,7 @@
 namespace rota::detail {
 
 /// When a robot sends plan messages: on a grid of `message_period` from `first_message` on, however late it is asked, and a
-/// slot that was missed is not made up for. With `change_period`, what is new is said that soon after the last message.
+/// slot that was missed is not made up for. With `change_period`, what is news is said that soon after the last message.
 class timetable {
 public:
   explicit timetable(robot_options const& options)
@@ -18,16 +18,17 @@ public:
         slot_(options.first_message) {}
 
   [[nodiscard]] instant next_due() const noexcept {
-    bool const hurried = changed_ && change_period_ > duration{};
-    return hurried ? (std::min)(slot_, spoke_ + change_period_) : slot_;
+    return news_ > 0 ? (std::min)(slot_, spoke_ + change_period_) : slot_;
   }
-  /// Something in the next message is new.
-  void note_change(bool changed = true) noexcept { changed_ = changed_ || changed; }
+  /// Something is news: it is said twice, since a message may be lost.
+  void note_news() noexcept { say(2); }
+  /// Somebody believes otherwise: what this robot does is said again.
+  void note_disagreement() noexcept { say(1); }
   /// A message goes out.
   void sent(instant now) noexcept {
     if (now >= slot_) slot_ = slot_after(now);
     spoke_ = now;
-    changed_ = false;
+    if (news_ > 0) --news_;
   }
   /// The next slot is one period away at most, wherever the grid began.
   void keep_up(instant now) noexcept {
@@ -42,11 +43,14 @@ public:
   template <class Digest>
   void digest_into(Digest& d) const {
     d(slot_);
-    if (change_period_ > duration{}) d(spoke_, changed_);
+    if (change_period_ > duration{}) d(spoke_, news_);
   }
   friend bool operator==(timetable const&, timetable const&) = default;
 
 private:
+  void say(int times) noexcept {
+    if (change_period_ > duration{}) news_ = (std::max)(news_, times);
+  }
   /// The first slot after an instant.
   [[nodiscard]] instant slot_after(instant after) const noexcept {
     auto const past = (after.ns % period_.ns - grid_.ns % period_.ns + 2 * period_.ns) % period_.ns;
@@ -56,9 +60,9 @@ private:
   duration period_;
   instant grid_;
   duration change_period_;
-  instant slot_;          // the next one
-  instant spoke_{};       // when the last message was sent
-  bool changed_ = false;  // something in the next message is new
+  instant slot_;     // the next one
+  instant spoke_{};  // when the last message was sent
+  int news_ = 0;     // so many messages shall not wait for their slots
 };
 
 }  // namespace rota::detail
