@@ -85,9 +85,27 @@ struct reproduce_options {
 
 struct monitors_options {
   std::size_t runs = 200;
+  std::uint32_t cycles = 0;  ///< n; 0: 2 to 6
+  std::string monitor;       ///< empty: each
   std::uint64_t seed = 1;
   bool json = false;
 };
 [[nodiscard]] outcome run_monitors(monitors_options const& o);
+
+struct timing_options {
+  std::size_t runs = 10'000;
+  std::uint64_t seed = 1;
+};
+[[nodiscard]] outcome run_timing(timing_options const& o);
+
+struct budget_options {
+  double minutes = 20;
+  double loss = 0.02;
+  std::size_t runs = 200;
+  std::uint64_t seed = 1;
+  std::string plan;  ///< empty: the shipped one
+  bool json = false;
+};
+[[nodiscard]] outcome run_budget(budget_options const& o);
 
 }  // namespace rota::cli

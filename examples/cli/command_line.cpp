@@ -148,7 +148,40 @@ void add_monitors(CLI::App& program, command& chosen) {
                  "so many runs a figure, and a fifth as many minutes of five robots for false alarms")
       ->check(within(std::size_t{5}, std::size_t{1'000'000}, "a whole number from 5 to 1000000"))
       ->capture_default_str();
+  sub.add_option("--cycles", o->cycles, "only this n; by default 2 to 6")
+      ->check(within(1, 1'000'000, "a whole number from 1 to 1000000"));
+  sub.add_option("--monitor", o->monitor, "only this one; both (cycles and insistence) is a robot's default")
+      ->check(CLI::IsMember({"literal", "cycles", "insistence", "repetition", "both"}));
   sub.add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
+  sub.add_flag("--json", o->json, "print JSON");
+}
+
+void add_timing(CLI::App& program, command& chosen) {
+  auto const o = std::make_shared<timing_options>();
+  CLI::App& sub = add(program, chosen, o, run_timing, "timing", "How long two and four cycles take, beside the theory");
+  sub.add_option("--runs", o->runs, "so many fights of two robots")
+      ->check(within(std::size_t{1}, std::size_t{10'000'000}, "a whole number from 1 to 10000000"))
+      ->capture_default_str();
+  sub.add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
+}
+
+void add_budget(CLI::App& program, command& chosen) {
+  auto const o = std::make_shared<budget_options>();
+  CLI::App& sub =
+      add(program, chosen, o, run_budget, "budget",
+          "What five robots lose by sending less: conflicts and reactions at 2, 5 and 10 messages a second");
+  sub.add_option("--runs", o->runs, "so many runs of each study: detection, taking over, a minute of false alarms")
+      ->check(within(std::size_t{1}, std::size_t{1'000'000}, "a whole number from 1 to 1000000"))
+      ->capture_default_str();
+  sub.add_option("--minutes", o->minutes, "simulated time of each game")
+      ->check(within(0.01, 1440.0, "a number of minutes from 0.01 to 1440"))
+      ->capture_default_str();
+  sub.add_option("--loss", o->loss, "probability that a message is lost")
+      ->check(within(0.0, 1.0, "a probability from 0 to 1"))
+      ->capture_default_str();
+  sub.add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
+  sub.add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan")
+      ->check(check_not_empty);
   sub.add_flag("--json", o->json, "print JSON");
 }
 
@@ -164,6 +197,8 @@ command parse_command_line(int argc, char** argv) {
   add_simulate(program, chosen);
   add_reproduce(program, chosen);
   add_monitors(program, chosen);
+  add_timing(program, chosen);
+  add_budget(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& e) {

@@ -336,4 +336,27 @@ std::string as_json(std::vector<monitor_row> const& rows, std::uint64_t seed) {
   return out.dump(2) + '\n';
 }
 
+std::string as_json(std::vector<budget_row> const& rows, std::uint64_t seed) {
+  ordered_json out;
+  auto list = ordered_json::array();
+  for (auto const& r : rows) {
+    ordered_json row;
+    row["wanted_per_second"] = r.wanted;
+    row["news_at_once"] = r.news;
+    row["sent_per_second"] = r.sent;
+    row["conflict_share"] = r.conflict;
+    row["episode_ms"]["median"] = r.median_ms;
+    row["episode_ms"]["p99"] = r.p99_ms;
+    row["sent_per_second_fighting"] = r.fight_sent;
+    row["detection_ms"] = std::vector<double>{r.detected_ms, r.detected_20_ms, r.detected_60_ms};
+    row["taken_over_ms"] = r.taken_over_ms;
+    row["false_alarms_per_robot_minute"] = r.alarms;
+    row["silence_s"] = r.silence_s;
+    list.push_back(std::move(row));
+  }
+  out["budgets"] = std::move(list);
+  out["seed"] = seed;
+  return out.dump(2) + '\n';
+}
+
 }  // namespace rota::cli

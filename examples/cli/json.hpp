@@ -1,5 +1,6 @@
 #pragma once
 
+#include "budget.hpp"
 #include "monitors.hpp"
 #include <rota/adapters/alica/model.hpp>
 #include <rota/search/limits.hpp>
@@ -79,5 +80,8 @@ struct named_allocation {
 
 /// The table of monitors, a row each.
 [[nodiscard]] std::string as_json(std::vector<monitor_row> const& rows, std::uint64_t seed);
+
+/// The table of message budgets, a row each.
+[[nodiscard]] std::string as_json(std::vector<budget_row> const& rows, std::uint64_t seed);
 
 }  // namespace rota::cli

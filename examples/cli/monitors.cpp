@@ -5,11 +5,13 @@
 #include "text.hpp"
 
 #include <rota/sim/detection_study.hpp>
+#include <rota/sim/evaluation.hpp>
 #include <rota/team/monitors/literal.hpp>
 #include <rota/team/monitors/repetition.hpp>
 
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -43,7 +45,7 @@ monitor_row study(std::string const& name, std::uint32_t n, monitors_options con
       row.fights_missed += f.runs - f.detected;
     }
   for (auto const what : {quarrel::no_room, quarrel::join_and_leave, quarrel::insist, quarrel::yield})
-    for (double const loss : {0.0, 0.6}) {
+    for (double const loss : monitor_row::losses) {
       auto const f = figures(what, 2, loss, loss == 0 ? seconds(2) : seconds(5), o.runs);
       row.missed.push_back(static_cast<double>(f.runs - f.detected) / static_cast<double>(f.runs));
     }
@@ -62,48 +64,92 @@ monitor_row study(std::string const& name, std::uint32_t n, monitors_options con
 }
 
 std::string as_text(std::vector<monitor_row> const& rows, monitors_options const& o) {
-  std::vector<std::array<std::string, 18>> table;
-  table.push_back({"monitor", "n", "2 robots", "20 %", "60 %", "5 robots", "20 %", "60 %", "no room", "60 %", "leaves",
-                   "60 %", "insists", "60 %", "yields", "60 %", "100 ms", "400 ms"});
+  std::vector<std::array<std::string, 11>> seen;
+  seen.push_back(
+      {"monitor", "n", "2 robots", "20 %", "60 %", "5 robots", "20 %", "60 %", "100 ms", "200 ms", "400 ms"});
+  std::vector<std::array<std::string, 15>> missed;
+  missed.push_back({"monitor", "n", "fights", "no room", "20 %", "60 %", "leaves", "20 %", "60 %", "insists", "20 %",
+                    "60 %", "yields", "20 %", "60 %"});
   auto const alarms = [](double x) { return number(static_cast<double>(static_cast<int>(x * 1000 + 0.5)) / 1000); };
   for (auto const& r : rows) {
-    std::array<std::string, 18> line{r.name, std::to_string(r.cycles)};
+    std::array<std::string, 11> line{r.name, std::to_string(r.cycles)};
     std::size_t at = 2;
     for (double const ms : r.detection_ms) line[at++] = milliseconds_text(ms);
-    for (double const share : r.missed) line[at++] = percent(share);
-    line[at++] = alarms(r.alarms.front());
-    line[at++] = alarms(r.alarms.back());
-    table.push_back(line);
+    for (double const rate : r.alarms) line[at++] = alarms(rate);
+    seen.push_back(line);
+    std::array<std::string, 15> other{r.name, std::to_string(r.cycles), std::to_string(r.fights_missed)};
+    at = 3;
+    for (double const share : r.missed) other[at++] = percent(share);
+    missed.push_back(other);
   }
   return "Deliberation every 30 ms, messages every 100 ms, 2 ms under way; " + counted(o.runs, "run") +
-         " a figure, seed " + std::to_string(o.seed) + ".\n\n" + laid_out(table) +
+         " a figure, seed " + std::to_string(o.seed) + ".\n\n" + laid_out(seen) +
          "\n  2 and 5 robots: each is sure that it is closest; the time until the first detection, at 0, 20 and 60 % "
          "loss.\n"
-         "  no room, leaves, insists, yields: robot 2 joins and is given nothing; joins, is given another task and "
-         "leaves;\n"
-         "  insists and is given something else each time; yields for a moment each time: the share not seen within 2 "
-         "s,\n"
-         "  and within 5 s at 60 % loss. 100 ms, 400 ms: false alarms per robot and minute where all see the same, and "
-         "who\n"
-         "  is closest changes that often on average.\n";
+         "  100, 200, 400 ms: false alarms per robot and minute where five see the same, and who is closest changes "
+         "that\n"
+         "  often on average. both is a robot's default, with n = 4.\n\n" +
+         laid_out(missed) +
+         "\n  fights: of the fights above, those not seen within 5 s. no room, leaves, insists, yields: robot 2 joins "
+         "and is "
+         "given\n"
+         "  nothing; joins, is given another task and leaves; insists and is given something else each time; yields "
+         "for "
+         "a\n"
+         "  moment each time: the share not seen within 2 s, and within 5 s at 20 and 60 % loss.\n";
 }
 
 }  // namespace
 
+sim::study_figures study_of_default(sim::study_options const& options) {
+  return sim::study_detection<conflict_monitor<sim::names>>(options);
+}
+
 outcome run_monitors(monitors_options const& o) {
+  using sim::names;
+  struct kind {
+    char const* name;
+    monitor_row (*study)(std::string const&, std::uint32_t, monitors_options const&, progress&, std::size_t);
+  };
+  constexpr kind kinds[] = {{"literal", study<literal_monitor<names>>},
+                            {"cycles", study<cycle_monitor<names>>},
+                            {"insistence", study<insistence_monitor<names>>},
+                            {"repetition", study<repetition_monitor<names>>},
+                            {"both", study<conflict_monitor<names>>}};
   std::vector<monitor_row> rows;
   progress shown;
-  constexpr std::uint32_t ns[] = {2, 3, 4, 5, 6};
-  constexpr std::size_t steps = 5 * std::size(ns);
-  using sim::names;
-  for (auto const n : ns) {
-    rows.push_back(study<literal_monitor<names>>("literal", n, o, shown, steps));
-    rows.push_back(study<cycle_monitor<names>>("cycles", n, o, shown, steps));
-    rows.push_back(study<insistence_monitor<names>>("insistence", n, o, shown, steps));
-    rows.push_back(study<repetition_monitor<names>>("repetition", n, o, shown, steps));
-    rows.push_back(study<conflict_monitor<names>>("both (default)", n, o, shown, steps));
-  }
+  std::uint32_t const first = o.cycles == 0 ? 2 : o.cycles, last = o.cycles == 0 ? 6 : o.cycles;
+  std::size_t const steps = (last - first + 1) * (o.monitor.empty() ? std::size(kinds) : 1);
+  for (auto n = first; n <= last; ++n)
+    for (auto const& k : kinds)
+      if (o.monitor.empty() || o.monitor == k.name) rows.push_back(k.study(k.name, n, o, shown, steps));
   return {o.json ? as_json(rows, o.seed) : as_text(rows, o)};
+}
+
+outcome run_timing(timing_options const& o) {
+  std::vector<std::array<std::string, 5>> table;
+  table.push_back({"messages", "n", "theory", "measured", "first of two"});
+  auto const tenths = [](double ms) {
+    return number(static_cast<double>(static_cast<int>(ms * 10 + 0.5)) / 10) + " ms";
+  };
+  progress shown;
+  for (int const period : {100, 200}) {
+    shown.next(2, "messages every " + std::to_string(period) + " ms");
+    sim::timing_options t;
+    t.seed = o.seed;
+    t.runs = o.runs;
+    t.message_period = milliseconds(period);
+    auto const f = sim::measure_timing(t);
+    table.push_back({"every " + std::to_string(period) + " ms", "2", std::to_string(period + 15) + " ms",
+                     tenths(f.two_cycles_ms), tenths(f.two_detected_ms)});
+    table.push_back(
+        {"", "4", std::to_string(3 * period + 15) + " ms", tenths(f.four_cycles_ms), tenths(f.four_detected_ms)});
+  }
+  return {
+      "Two robots fight, " + counted(o.runs, "run") + ", seed " + std::to_string(o.seed) + ".\n\n" + laid_out(table) +
+      "\n  measured: at one robot, from the first message that tells it otherwise to the nth reallocation that "
+      "undoes\n  one; in theory (n - 1) message periods and half a deliberation period of 30 ms. first of two: from "
+      "when both\n  act in conflict until either has counted n cycles. No noise, no loss, resolution off.\n"};
 }
 
 }  // namespace rota::cli

@@ -5,6 +5,11 @@
 #include <string>
 #include <vector>
 
+namespace rota::sim {
+struct study_options;
+struct study_figures;
+}  // namespace rota::sim
+
 namespace rota::cli {
 
 /// What one monitor does with one n.
@@ -16,8 +21,11 @@ struct monitor_row {
   std::uint32_t cycles = 0;
   std::vector<double> detection_ms{};  ///< 2 robots at each loss, then 5 robots
   std::size_t fights_missed = 0;       ///< of all these runs
-  std::vector<double> missed{};        ///< no room, leaves, insists, yields: each without loss and at 60 %
+  std::vector<double> missed{};        ///< no room, leaves, insists, yields: each at each loss
   std::vector<double> alarms{};        ///< per robot and minute, for each of `jumps_ms`
 };
+
+/// `sim::study_detection` of a robot's default monitor, which only monitors.cpp compiles.
+[[nodiscard]] sim::study_figures study_of_default(sim::study_options const& options);
 
 }  // namespace rota::cli

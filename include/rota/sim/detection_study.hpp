@@ -21,7 +21,8 @@ enum class quarrel : unsigned char {
   no_room,         ///< … and is given none
   insist,          ///< robot 2 says the same each time, and is given something else each time
   yield,           ///< robot 2 takes the ball at one message and yields at the next
-  agree            ///< all see the same, and who is closest changes at random moments
+  agree,           ///< all see the same, and who is closest changes at random moments
+  hand_over        ///< no quarrel: robot 1, who has the ball, leaves; measured is when another takes it
 };
 
 struct study_options {
@@ -38,8 +39,8 @@ struct study_options {
 
 struct study_figures {
   std::size_t runs = 0;
-  std::size_t detected = 0;  ///< runs in which somebody detected something
-  double mean_ms = 0;        ///< of these, from the beginning of the quarrel to the first detection
+  std::size_t detected = 0;  ///< runs in which somebody detected something, or took over
+  double mean_ms = 0;        ///< of these, from the beginning of the quarrel until then
   double slowest_ms = 0;
   double alarms_per_minute = 0;  ///< detections per robot and minute
 };
@@ -85,7 +86,7 @@ public:
     jump_ = begin_;
   }
 
-  /// When somebody first detected something, from the beginning of the quarrel; counts all detections.
+  /// When somebody first detected something, or took over, from the beginning of the quarrel; counts all detections.
   std::optional<duration> play(std::size_t& detections) {
     std::optional<duration> first;
     while (true) {
@@ -104,10 +105,17 @@ public:
       }
       robots_[i].next_thought = now + milliseconds(30);
       hear(now);
+      if (options_.what == quarrel::hand_over && i == 0 && now >= begin_ && robots_[0].mind.leave(play_.id()))
+        begin_ = now;
       if (scripted(i)) continue;
       robots_[i].turn = !robots_[i].turn;
       auto const d = robots_[i].mind.deliberate(play_, members_, sight(i, now), now, space_);
       speak(i, now);
+      if (options_.what == quarrel::hand_over) {
+        bool const gone = !robots_[0].mind.executes(play_.id());
+        if (gone && d.own && d.own->task == names::task{1}) return now - begin_;
+        continue;
+      }
       if (!d.detected || now < begin_) continue;
       ++detections;
       if (!first) first = now - begin_;
@@ -133,7 +141,8 @@ private:
   }
   /// Robot 2 plays a part in some quarrels.
   [[nodiscard]] bool scripted(std::size_t i) const {
-    return i == 1 && options_.what != quarrel::fight && options_.what != quarrel::agree;
+    return i == 1 && options_.what != quarrel::fight && options_.what != quarrel::agree &&
+           options_.what != quarrel::hand_over;
   }
   [[nodiscard]] study_beliefs sight(std::size_t i, instant now) const {
     if (options_.what == quarrel::agree) return {closest_, false};
