@@ -33,10 +33,11 @@ robot_options options_of(budget_row const& row) {
 
 void measure(budget_row& row, budget_options const& o, sim::playbook const& book) {
   auto const robot = options_of(row);
+  duration const length{static_cast<std::int64_t>(o.minutes * 60e9 + 0.5)};
   auto const game = [&](sim::scenario what) {
     sim::play_options p;
     p.what = what;
-    p.length = duration{static_cast<std::int64_t>(o.minutes * 60e9 + 0.5)};
+    p.length = length;
     p.team.seed = o.seed;
     p.team.robot = robot;
     p.team.network.loss = o.loss;
@@ -61,6 +62,7 @@ void measure(budget_row& row, budget_options const& o, sim::playbook const& book
     s.runs = o.runs;
     s.seed = o.seed;
     s.limit = seconds(60);
+    if (what == sim::quarrel::agree) s.limit = std::min(s.limit, length);
     return study_of_default(s);
   };
   row.detected_ms = study(sim::quarrel::fight, 2, 0).mean_ms;

@@ -87,6 +87,7 @@ struct monitors_options {
   std::size_t runs = 200;
   std::uint32_t cycles = 0;  ///< n; 0: 2 to 6
   std::string monitor;       ///< empty: each
+  std::int64_t limit = 0;    ///< in seconds: so long a conflict may take to be seen; 0: 5, and 2 for some without loss
   std::uint64_t seed = 1;
   bool json = false;
 };

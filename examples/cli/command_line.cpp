@@ -152,6 +152,9 @@ void add_monitors(CLI::App& program, command& chosen) {
       ->check(within(1, 1'000'000, "a whole number from 1 to 1000000"));
   sub.add_option("--monitor", o->monitor, "only this one; both (cycles and insistence) is a robot's default")
       ->check(CLI::IsMember({"literal", "cycles", "insistence", "repetition", "both"}));
+  sub.add_option("--limit", o->limit,
+                 "so many seconds until a conflict counts as missed; by default 5, and 2 for some without loss")
+      ->check(within(1, 3600, "a whole number from 1 to 3600"));
   sub.add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
   sub.add_flag("--json", o->json, "print JSON");
 }

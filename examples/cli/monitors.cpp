@@ -37,16 +37,17 @@ monitor_row study(std::string const& name, std::uint32_t n, monitors_options con
     s.robot.cycles = n;
     return sim::study_detection<Monitor>(s);
   };
+  auto const within = [&](std::int64_t usual) { return seconds(o.limit > 0 ? o.limit : usual); };
   shown.next(steps, name + ", n = " + std::to_string(n));
   for (std::uint64_t const robots : {2u, 5u})
     for (double const loss : monitor_row::losses) {
-      auto const f = figures(quarrel::fight, robots, loss, seconds(5), o.runs);
+      auto const f = figures(quarrel::fight, robots, loss, within(5), o.runs);
       row.detection_ms.push_back(f.mean_ms);
       row.fights_missed += f.runs - f.detected;
     }
   for (auto const what : {quarrel::no_room, quarrel::join_and_leave, quarrel::insist, quarrel::yield})
     for (double const loss : monitor_row::losses) {
-      auto const f = figures(what, 2, loss, loss == 0 ? seconds(2) : seconds(5), o.runs);
+      auto const f = figures(what, 2, loss, within(loss == 0 ? 2 : 5), o.runs);
       row.missed.push_back(static_cast<double>(f.runs - f.detected) / static_cast<double>(f.runs));
     }
   for (auto const jumps : monitor_row::jumps_ms) {
@@ -82,6 +83,7 @@ std::string as_text(std::vector<monitor_row> const& rows, monitors_options const
     for (double const share : r.missed) other[at++] = percent(share);
     missed.push_back(other);
   }
+  auto const limit = [&](std::int64_t usual) { return std::to_string(o.limit > 0 ? o.limit : usual) + " s"; };
   return "Deliberation every 30 ms, messages every 100 ms, 2 ms under way; " + counted(o.runs, "run") +
          " a figure, seed " + std::to_string(o.seed) + ".\n\n" + laid_out(seen) +
          "\n  2 and 5 robots: each is sure that it is closest; the time until the first detection, at 0, 20 and 60 % "
@@ -89,14 +91,13 @@ std::string as_text(std::vector<monitor_row> const& rows, monitors_options const
          "  100, 200, 400 ms: false alarms per robot and minute where five see the same, and who is closest changes "
          "that\n"
          "  often on average. both is a robot's default, with n = 4.\n\n" +
-         laid_out(missed) +
-         "\n  fights: of the fights above, those not seen within 5 s. no room, leaves, insists, yields: robot 2 joins "
-         "and is "
-         "given\n"
+         laid_out(missed) + "\n  fights: of the fights above, those not seen within " + limit(5) +
+         ". no room, leaves, insists, yields: robot 2 joins and is given\n"
          "  nothing; joins, is given another task and leaves; insists and is given something else each time; yields "
          "for "
          "a\n"
-         "  moment each time: the share not seen within 2 s, and within 5 s at 20 and 60 % loss.\n";
+         "  moment each time: the share not seen within " +
+         limit(2) + ", and within " + limit(5) + " at 20 and 60 % loss.\n";
 }
 
 }  // namespace

@@ -2,6 +2,12 @@
 
 #include <rota/core/fwd.hpp>
 
+namespace rota {
+
+struct json_fault;
+
+}  // namespace rota
+
 namespace rota::alica {
 
 struct diagnostic;

@@ -6,6 +6,7 @@ namespace rota {
 
 struct incarnation;
 struct robot_options;
+class reception_counts;
 template <vocabulary V>
 struct plan_message;
 template <vocabulary V>
