@@ -13,7 +13,7 @@ namespace rota::cli {
 /// How the program ends.
 enum exit_status : int {
   success = 0,
-  negative = 1,  ///< the answer is no: errors found in files, no valid allocation
+  negative = 1,  ///< the answer is no: errors found in files, no valid allocation, a broken promise
   misuse = 2     ///< the command line or an input file is wrong
 };
 
@@ -108,5 +108,18 @@ struct budget_options {
   bool json = false;
 };
 [[nodiscard]] outcome run_budget(budget_options const& o);
+
+struct campaign_options {
+  std::uint64_t ticks = 1'000'000;
+  std::optional<std::uint64_t> runs;  ///< none: as `ticks` says, or 200 for each figure
+  std::uint64_t seed = 1;
+  std::optional<std::size_t> robots;
+  std::optional<double> delay;  ///< ms
+  bool figures = false;
+  double opening = 0;  ///< ms; of each robot, for the figures
+  bool json = false;
+};
+[[nodiscard]] campaign_options default_campaign();
+[[nodiscard]] outcome run_campaign(campaign_options const& o);
 
 }  // namespace rota::cli

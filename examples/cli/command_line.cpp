@@ -188,6 +188,37 @@ void add_budget(CLI::App& program, command& chosen) {
   sub.add_flag("--json", o->json, "print JSON");
 }
 
+void add_campaign(CLI::App& program, command& chosen) {
+  auto const o = std::make_shared<campaign_options>(default_campaign());
+  CLI::App& sub = add(program, chosen, o, run_campaign, "campaign",
+                      "Plays teams in which much goes wrong, and checks at every step what docs/protocol.md promises");
+  auto* const ticks =
+      sub.add_option("--ticks", o->ticks, "stop after so many deliberations, of all robots together")
+          ->check(within(std::uint64_t{1}, std::uint64_t{1'000'000'000'000}, "a whole number from 1 to 1000000000000"))
+          ->capture_default_str();
+  sub.add_option("--runs", o->runs, "stop after so many runs; with --figures, so many for each figure (200)")
+      ->check(within(std::uint64_t{1}, std::uint64_t{1'000'000'000}, "a whole number from 1 to 1000000000"))
+      ->excludes(ticks);
+  sub.add_option("--seed", o->seed, "of the first run; the next has the next seed")
+      ->check(check_seed)
+      ->capture_default_str();
+  sub.add_option("--robots", o->robots, "size of the team, 2 to 11; by default the seed decides")
+      ->check(within(std::size_t{2}, std::size_t{sim::max_robots},
+                     "a whole number from 2 to " + std::to_string(sim::max_robots)));
+  sub.add_option("--delay", o->delay,
+                 "hold teams to this greatest delay in ms, whatever their radios do: to see a broken promise")
+      ->check(within(0.0, 10'000.0, "a delay from 0 to 10000 ms"));
+  auto* const figures =
+      sub.add_flag("--figures", o->figures, "measure how long five robots take to overcome each fault instead");
+  sub.add_option("--opening", o->opening, "how long a new claim is repeated every 30 ms, in ms")
+      ->check(within(0.0, 2'000.0, "a time from 0 to 2000 ms"))
+      ->capture_default_str()
+      ->needs(figures);
+  sub.add_flag("--json", o->json, "print JSON");
+  sub.footer("The first broken promise ends a campaign, and is printed with the command that plays its run again.\n"
+             "Exit status: 0 every promise was kept, 1 one was broken, 2 misuse.");
+}
+
 }  // namespace
 
 command parse_command_line(int argc, char** argv) {
@@ -202,6 +233,7 @@ command parse_command_line(int argc, char** argv) {
   add_monitors(program, chosen);
   add_timing(program, chosen);
   add_budget(program, chosen);
+  add_campaign(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& e) {

@@ -359,4 +359,39 @@ std::string as_json(std::vector<budget_row> const& rows, std::uint64_t seed) {
   return out.dump(2) + '\n';
 }
 
+std::string as_json(campaign_summary const& s) {
+  ordered_json seen;
+  for (auto const& [what, times] : s.seen) seen[what] = times;
+  ordered_json out;
+  out["kept"] = !s.broken;
+  if (s.broken) {
+    out["broken"]["promise"] = s.broken->promise;
+    out["broken"]["at_ms"] = s.broken->at_ms;
+    out["broken"]["robot"] = s.broken->robot;
+    out["broken"]["why"] = s.broken->why;
+    out["broken"]["again"] = s.broken->again;
+  }
+  out["runs"] = s.runs;
+  out["seen"] = std::move(seen);
+  out["seed"] = s.seed;
+  return out.dump(2) + '\n';
+}
+
+std::string as_json(std::vector<fault_row> const& rows, std::uint64_t runs, std::uint64_t seed) {
+  auto list = ordered_json::array();
+  for (auto const& r : rows) {
+    ordered_json row;
+    row["figure"] = r.name;
+    row["here"] = r.here;
+    row["wanted"] = r.wanted ? ordered_json(*r.wanted) : ordered_json();
+    row["unit"] = r.share ? "1" : "ms";
+    list.push_back(std::move(row));
+  }
+  ordered_json out;
+  out["figures"] = std::move(list);
+  out["runs"] = runs;
+  out["seed"] = seed;
+  return out.dump(2) + '\n';
+}
+
 }  // namespace rota::cli

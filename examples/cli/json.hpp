@@ -1,6 +1,7 @@
 #pragma once
 
 #include "budget.hpp"
+#include "campaign.hpp"
 #include "monitors.hpp"
 #include <rota/adapters/alica/model.hpp>
 #include <rota/search/limits.hpp>
@@ -83,5 +84,11 @@ struct named_allocation {
 
 /// The table of message budgets, a row each.
 [[nodiscard]] std::string as_json(std::vector<budget_row> const& rows, std::uint64_t seed);
+
+/// What a campaign came to.
+[[nodiscard]] std::string as_json(campaign_summary const& s);
+
+/// How long a team takes to overcome faults, a row each.
+[[nodiscard]] std::string as_json(std::vector<fault_row> const& rows, std::uint64_t runs, std::uint64_t seed);
 
 }  // namespace rota::cli

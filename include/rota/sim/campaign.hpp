@@ -175,11 +175,14 @@ template <class Monitor = conflict_monitor<names>>
   return play_run<Monitor>(book, run, [](log_record const&) {});
 }
 
-/// A campaign: the runs with the seeds `seed`, `seed` + 1, …, until so many ticks are played or a promise is broken. A tick is
-/// one deliberation of one robot.
+/// A campaign: the runs with the seeds `seed`, `seed` + 1, …, until so many ticks or runs are played, or a promise is broken. A
+/// tick is one deliberation of one robot.
 struct campaign_options {
   std::uint64_t seed = 1;
-  std::uint64_t ticks = 1'000'000;
+  std::uint64_t ticks = 1'000'000;  ///< if `runs` is not given
+  std::optional<std::uint64_t> runs;
+  /// Holds teams to this greatest delay, whatever their radios do: to see a broken promise.
+  std::optional<duration> delay;
   std::optional<std::size_t> robots;  ///< two to seven, as the seed says, if not given
 };
 
@@ -191,16 +194,18 @@ struct campaign_report {
   std::optional<violation> broken;
 };
 
-/// Equal options give equal reports. `next` is told before each run how many ticks are played.
+/// Equal options give equal reports. `next` is told before each run how many runs and ticks are played.
 template <class Monitor = conflict_monitor<names>>
-[[nodiscard]] campaign_report run_campaign(campaign_options const& o,
-                                           std::function<void(std::uint64_t ticks)> const& next = {}) {
+[[nodiscard]] campaign_report
+run_campaign(campaign_options const& o, std::function<void(std::uint64_t runs, std::uint64_t ticks)> const& next = {}) {
   campaign_report all;
   playbook const book = campaign_playbook();
-  while (all.seen.ticks < o.ticks && !all.broken) {
-    if (next) next(all.seen.ticks);
+  while (!all.broken && (o.runs ? all.runs < *o.runs : all.seen.ticks < o.ticks)) {
+    if (next) next(all.runs, all.seen.ticks);
     all.failed = o.seed + all.runs;
-    auto one = play_run<Monitor>(book, make_run(all.failed, o.robots));
+    auto run = make_run(all.failed, o.robots);
+    if (o.delay) run.promised.delay = *o.delay;
+    auto one = play_run<Monitor>(book, run);
     all.seen.add(one.seen);
     all.broken = std::move(one.broken);
     ++all.runs;

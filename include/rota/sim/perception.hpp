@@ -77,9 +77,12 @@ public:
 private:
   /// The error of a tracked position after one more frame, whose own error has the standard deviation `sigma`.
   point track(point& error, micrometres sigma) {
-    error.x += (noise(engine_, sigma) - error.x) / options_.tracking;
-    error.y += (noise(engine_, sigma) - error.y) / options_.tracking;
+    error.x += part(noise(engine_, sigma) - error.x);
+    error.y += part(noise(engine_, sigma) - error.y);
     return error;
+  }
+  [[nodiscard]] micrometres part(micrometres whole) const noexcept {
+    return options_.tracking == 4 ? whole / 4 : whole / options_.tracking;  // the default takes no division
   }
   void note(point p) noexcept {
     digest_ = scatter(digest_ ^ static_cast<std::uint64_t>(p.x)) ^ static_cast<std::uint64_t>(p.y);

@@ -72,7 +72,8 @@ struct playbook {
 /// (diagonal − d) / divisor in metres, at least 0, in whole units of 2^-20, so that no compiler's rounding decides who attacks.
 [[nodiscard]] constexpr double pay(micrometres d, std::int64_t divisor) noexcept {
   constexpr std::int64_t unit = 1 << 20;
-  return static_cast<double>((std::max<micrometres>)(field_diagonal - d, 0) * unit / metres(1) / divisor) / unit;
+  auto const units = (std::max<micrometres>)(field_diagonal - d, 0) * unit / metres(1);
+  return static_cast<double>(divisor == 1 ? units : units / divisor) / unit;
 }
 
 /// The utility that `pay_options` describes. The robots are called 1, 2, 3, …
