@@ -102,12 +102,13 @@ public:
       instant heard = back;
       std::size_t count = 0;
       bool by[robots] = {};
-      team.run(back + seconds(35), [&](log_record const& r) {
+      auto const watch = [&](log_record const& r) {
         if (r.time <= back + milliseconds(5) || r.what != happening::heard_plan || r.other != who) return;
         if (r.verdict != verdict::accepted || std::exchange(by[r.robot], true)) return;
         heard = r.time;
         ++count;
-      });
+      };
+      for (instant t = back; count < robots - 1 && t < back + seconds(35);) team.run(t += seconds(1), watch);
       return count == robots - 1 ? heard - back : seconds(35);
     });
   }
