@@ -44,12 +44,18 @@ private:
   // ------------------------------------------------------------------------------------------------ what happens
   void act() {
     switch (in_.below(16)) {
-    case 0:
-    case 1: go(duration{in_.byte() * 1'000'000LL}); break;
+    case 0: go(duration{in_.byte() * 1'000'000LL}); break;
+    case 1:  // whoever asks what is due need not have deliberated
+      go(duration{in_.byte() * 1'000'000LL});
+      speak();
+      break;
     case 2: go(duration{in_.byte() * 1'000'000'000LL}); break;
     case 3: go(duration{-in_.byte() * 100'000'000LL}); break;
     case 4: now_ = instant{static_cast<std::int64_t>(in_.word()) >> 10}; break;  // 104 days to either side
-    case 5: (void)mind_.enter(types_[in_.below(2)], now_); break;
+    case 5:
+      (void)mind_.enter(types_[in_.below(2)], now_);
+      latest_ = now_;  // it has seen this time, too
+      break;
     case 6: (void)mind_.leave(types[in_.below(2)]); break;
     case 7: look(); break;
     case 8: (void)mind_.set_state(types[in_.below(2)], static_cast<pitch::state>(in_.byte())); break;
@@ -138,6 +144,10 @@ private:
       if (d.reason == rota::decision_reason::no_valid_allocation)
         require(!d.own && !d.reign_began && !rule->leading(), "who sees nothing valid has no task, and does not lead");
     }
+    speak();
+  }
+  void speak() {
+    latest_ = now_;
     unsigned said = 0;
     while (auto const m = mind_.next_message(now_)) {
       require(++said <= types.size() + 1, "a robot says each thing once");
@@ -168,6 +178,8 @@ private:
       require(c->incarnation == mind_.incarnation() && c->number > 0, "and in this life");
       require(c->remaining > duration{} && c->remaining <= mind_.options().reign, "for a reign at most");
       for (auto const age : c->ages) require(age >= duration{}, "nobody was heard in the future");
+      auto fellow = newcomer();
+      require(fellow.receive(*there, now_).claim == rota::claim_outcome::adopted, "who hears a claim first obeys it");
     } else {
       auto const& p = std::get<plan_message>(m);
       require(m == *there, "a plan message loses nothing on the way");
@@ -349,6 +361,13 @@ private:
     o.max_delay = rota::milliseconds((more & 4) != 0 ? 0 : 500);
     o.silence = rota::milliseconds((more & 8) != 0 ? 300 : 2000);
     return o;
+  }
+
+  /// A robot that has heard nothing yet, and has the smallest stamp.
+  robot newcomer() const {
+    robot r(agent(0), everybody(), {1});
+    for (auto const& t : types_) (void)r.enter(t, now_);
+    return r;
   }
 
   fuzz::input& in_;

@@ -243,6 +243,19 @@ TEST_F(faults, a_forged_claim_of_another_life_mutes_nobody) {
   EXPECT_EQ(a.receive(claim_by(9, 9), at(2700)).claim, claim_outcome::adopted);
 }
 
+/// A forged plan message says that a forged claim is over. Its leader has made no such claim: the next genuine one heals it.
+TEST_F(faults, a_forged_claim_that_is_declared_over_mutes_nobody) {
+  auto a = in_play(1);
+  a.receive(says(9, 1, defend), start);
+  a.receive(claim_by(9, 9, 1'000'000), start);
+  a.receive(leaves(9, 2, 1'000'000), at(10));
+  ASSERT_FALSE(a.rule(play_id)->active());
+  a.receive(says(9, 3, defend), at(100));
+  EXPECT_EQ(a.receive(claim_by(9, 9), at(110)).claim, claim_outcome::expired) << "it may be late";
+  a.receive(says(9, 4, defend), at(2600));
+  EXPECT_EQ(a.receive(claim_by(9, 9), at(2610)).claim, claim_outcome::adopted);
+}
+
 TEST_F(faults, one_version_says_one_thing) {
   auto a = in_play(1);
   a.receive(claim_by(9, 9), start);

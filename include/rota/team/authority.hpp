@@ -128,12 +128,12 @@ public:
   bool hear_over(agent_id leader, rota::incarnation incarnation, std::uint64_t made, std::uint64_t leads, instant now,
                  duration max_delay) {
     known* const k = known_.find(leader);
-    if (!k || k->over) return false;
+    if (!k) return false;
     if (k->last > identity{incarnation, made}) {  // it has not made this claim: a forgery, unless the message is late
       if (now - k->expiry > max_delay) known_.erase(leader);
       return false;
     }
-    if (k->last == identity{incarnation, leads}) return false;
+    if (k->over || k->last == identity{incarnation, leads}) return false;
     k->over = true;
     if (!obeying() || !(claim_.leader == leader)) return false;
     phase_ = phase::none;
