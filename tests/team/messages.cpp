@@ -246,7 +246,7 @@ TEST_F(messages, an_answer_says_what_a_deliberation_chose) {
 TEST_F(messages, the_last_claim_of_a_reign_has_a_microsecond_left) {
   rota::robot_options options;
   options.claim_period = rota::nanoseconds(100);
-  options.message_period = rota::seconds(100);
+  options.message_period = options.pending_age = rota::seconds(100);
   auto a = in_play(9, options), b = in_play(2);
   ASSERT_EQ(a.receive(claim_by(8, 8), start).claim, rota::claim_outcome::challenged);
   (void)think(a, sees(9), start + milliseconds(1990));

@@ -49,9 +49,17 @@ inline constexpr instant never{(std::numeric_limits<std::int64_t>::max)()};
 /// Earlier than every instant that a clock shows.
 inline constexpr instant long_ago{(std::numeric_limits<std::int64_t>::min)()};
 
-/// An instant after the clock was set by d; `never` and `long_ago` stay.
+/// No clock of a robot shows more, before or after its zero.
+inline constexpr duration century = seconds(3'155'760'000);
+
+/// An instant after the clock was set by d; `never` and `long_ago` stay. Clocks that are set again and again do not carry it
+/// further than 1.8 centuries, so that its distance to what a clock shows can be computed.
 [[nodiscard]] constexpr instant moved(instant t, duration d) noexcept {
-  return t == never || t == long_ago ? t : t + d;
+  constexpr std::int64_t most = century.ns / 10 * 18;
+  if (t == never || t == long_ago) return t;
+  if (d.ns > 0 && t.ns > most - d.ns) return {most};
+  if (d.ns < 0 && t.ns < -most - d.ns) return {-most};
+  return t + d;
 }
 
 }  // namespace rota

@@ -25,6 +25,7 @@ enum class claim_outcome : unsigned char {
 struct heard_claim {
   claim_outcome outcome{};
   bool fresh = false;  ///< no copy of it with as little time left was heard before
+  duration late{};     ///< this copy was under way for so much longer than the quickest one
 
   friend bool operator==(heard_claim, heard_claim) = default;
 };
@@ -83,11 +84,17 @@ public:
     said_ = false;
   }
 
-  /// Whether c has the identity of the claim in force and says something else: another stamp, or another allocation in the
-  /// same version. The stamp of a claim never changes, nor does a version, so such a message is a forgery or a fault.
+  /// Whether c has the identity of a claim that is remembered, and says something else: another stamp, or another allocation
+  /// in the same version. The stamp of a claim never changes, nor does a version, so such a message is a forgery or a fault.
   [[nodiscard]] bool contradicts(claim<V> const& c) const {
+    if (known const* const k = known_.find(c.leader); k && k->last == identity_of(c) && k->stamp != c.stamp)
+      return true;
     if (!active() || !(claim_.leader == c.leader) || identity_of(claim_) != identity_of(c)) return false;
     return claim_.stamp != c.stamp || (claim_.version == c.version && claim_.atoms != c.atoms);
+  }
+  /// Whether the robot obeys a claim that this leader had not made when it had made `made` of them.
+  [[nodiscard]] bool obeys_after(agent_id leader, rota::incarnation incarnation, std::uint64_t made) const {
+    return obeying() && claim_.leader == leader && identity_of(claim_) > identity{incarnation, made};
   }
   /// The last claim of this leader that was heard, if any is remembered.
   [[nodiscard]] std::optional<identity> last_heard(agent_id leader) const {
@@ -107,21 +114,22 @@ public:
     auto const id = identity_of(c);
     auto const end = now + c.remaining;
     if (id < k.last) return {claim_outcome::expired};
-    bool const fresh = id > k.last || c.remaining < k.least;
+    bool const genuine = id > k.last || end >= k.earliest;  // or its time is forged, so that it ends the reign
+    bool const fresh = id > k.last || (genuine && c.remaining < k.least);
     if (id > k.last) {
       k = {c.leader, id, c.stamp, end, end - max_delay, long_ago, c.remaining};
       if (obeying() && claim_.leader == c.leader)
         phase_ = phase::none;  // a leader that claims anew has ended the last one
     } else {
       k.expiry = (std::max)(k.earliest, (std::min)(k.expiry, end));
-      k.least = (std::min)(k.least, c.remaining);
+      if (genuine) k.least = (std::min)(k.least, c.remaining);
     }
     if (k.over || now >= k.expiry) {
       if (obeying() && claim_.leader == c.leader) phase_ = phase::none;
-      if (!k.over) k.late = now;
+      if (!k.over && fresh) k.late = now;  // a copy that is not was recorded, and says nothing of its leader
       return {claim_outcome::expired};
     }
-    return {judge(c, k, mine, now), fresh};
+    return {judge(c, k, mine, now), fresh, (std::max)(end - k.expiry, duration{})};
   }
 
   /// Takes in that all claims of this leader up to `made` are over, but for `leads`. True if the claim in force ended by it.
@@ -192,12 +200,12 @@ public:
 
   /// Moves everything it remembers by d: the clock has been set.
   void shift(duration d) noexcept {
-    expiry_ += d;
-    began_ += d;
+    expiry_ = moved(expiry_, d);
+    began_ = moved(began_, d);
     next_repeat_ = moved(next_repeat_, d);
     for (known& k : known_) {
-      k.expiry += d;
-      k.earliest += d;
+      k.expiry = moved(k.expiry, d);
+      k.earliest = moved(k.earliest, d);
       k.late = moved(k.late, d);
     }
   }

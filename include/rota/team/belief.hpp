@@ -137,7 +137,7 @@ public:
   }
   /// Moves all instants by d: the clock has been set.
   void shift(duration d) noexcept {
-    for (record& r : records_) r.heard = r.heard + d;
+    for (record& r : records_) r.heard = moved(r.heard, d);
   }
   /// @pre `takes_part(b)`
   void set_state(agent_id b, typename V::state z) {

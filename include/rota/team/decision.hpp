@@ -4,6 +4,7 @@
 #include <rota/team/authority.hpp>
 #include <rota/team/belief.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -51,7 +52,8 @@ struct reception {
   small_vector<belief_change<V>, 1> changes;  ///< by a plan message: where the sender's part changed, ascending by type
   std::optional<claim_outcome> claim{};       ///< of an accepted claim
   event<in<V>> imposed;                       ///< what an accepted claim changed in the belief about its plan type
-  /// By a plan message with fingerprints: types in which the sender believes something else, about whomever.
+  /// By a plan message with fingerprints: types that nobody rules here, in which the sender believes something else, about
+  /// whomever.
   small_vector<typename V::plan_type, 1> disagreements;
   /// Whether it is news. Where not everybody hears everybody, whoever forwards each message that is news, and no other,
   /// lets every message reach everybody and end: copies and disorder do no harm.
@@ -63,7 +65,7 @@ enum class decision_reason : unsigned char {
   not_executing,        ///< the robot does not execute this plan type, so nothing was decided
   reallocated,          ///< the robot adopted another allocation
   kept,                 ///< the allocation stays
-  no_valid_allocation,  ///< the search found none; nobody has a task
+  no_valid_allocation,  ///< the search found none: the robot takes no task, believes the others, and abstains
   obeyed                ///< a leader decides
 };
 
@@ -80,8 +82,8 @@ struct [[nodiscard]] decision {
   std::uint32_t cycles = 0;                     ///< cycles that this deliberation completed
   std::optional<typename V::agent> detected{};  ///< the sender of the n-th subsequent cycle, if the monitor fired
   bool reign_began = false;                     ///< the robot claims authority from now on
-  bool reign_ended = false;                     ///< a reign has ended since the last deliberation
-  duration clock_set_back{};                    ///< by so much the robot's clock was set back since its last decision
+  bool reign_ended = false;   ///< a reign has ended since the last deliberation, and no greater took its place
+  duration clock_set_back{};  ///< by so much the robot's clock was set back since its last decision
   /// The plan types that the robot executes, ascending; filled only if the reason is `not_executing`.
   small_vector<typename V::plan_type, 4> executed;
 };
@@ -92,7 +94,7 @@ struct robot_options {
   duration pending_age = seconds(1);  ///< see `monitor_options`
   std::uint32_t yielding = 2;         ///< see `monitor_options`
   duration reign = seconds(2);        ///< how long a claim of this robot holds
-  duration max_reign = seconds(2);    ///< claims with more time left are refused; at least `reign`
+  duration max_reign = seconds(2);    ///< claims with more time left are refused; the same for all, at least `reign`
   duration message_period = milliseconds(100);
   /// If positive, news is said this soon after the last message, and twice: the robot enters, leaves or leads, its
   /// reallocation changed anything, or (once) a message's fingerprint differs. `sparing` of team/budget.hpp sets it.
@@ -100,11 +102,13 @@ struct robot_options {
   duration claim_period = milliseconds(100);   ///< how often a leader repeats an unchanged claim
   duration opening = milliseconds(200);        ///< for this long from its beginning, a claim is repeated
   duration opening_period = milliseconds(30);  ///< … every so often
-  duration max_delay = milliseconds(500);      ///< no message is expected to be under way for longer
-  duration silence = seconds(2);               ///< an agent that was not heard for longer is deleted
-  duration forget = seconds(30);  ///< an agent that was not heard for longer may begin a new life with any number
+  /// No message is expected to be under way for longer. If it is not below `silence`, claims bring nobody back.
+  duration max_delay = milliseconds(500);
+  duration silence = seconds(2);  ///< an agent that was not heard for longer is deleted
+  duration forget =
+      seconds(30);  ///< an agent that was not heard for longer may begin a new life with any number; above `max_delay`
   bool fingerprints = false;      ///< plan messages say what their sender believes of everybody, as four bytes
-  instant first_message{};        ///< the first slot of the grid of plan messages
+  instant first_message{};        ///< where the grid of plan messages lies: a slot; there are slots before it, too
   std::uint32_t confidence = 0;   ///< of this robot's claims: the greater confidence leads, then the greater id
   bool resolution = true;         ///< off: the robot detects loops, but neither claims nor obeys
   rota::hysteresis hysteresis{};  ///< see `reallocate`
@@ -112,5 +116,22 @@ struct robot_options {
 
   friend bool operator==(robot_options const&, robot_options const&) = default;
 };
+
+/// Whether a robot can work with these options; else they are a mistake. Periods are positive (`change_period` may be 0, and
+/// `opening_period` if `opening` is); no duration is negative or above `longest_duration`; 0 < reign ≤ max_reign, or nobody
+/// would obey; max_delay ≤ forget, or what is still under way would be taken for a new life; a loop of messages is quicker than
+/// the monitor forgets; and a peer that was not heard for `forget` has not sent `most_jump` messages.
+[[nodiscard]] constexpr bool usable(robot_options const& o) noexcept {
+  auto const within = [](duration d) { return d >= duration{} && d <= longest_duration; };
+  auto const positive = [&](duration d) { return within(d) && d > duration{}; };
+  duration const quickest =
+      o.change_period > duration{} ? (std::min)(o.change_period, o.message_period) : o.message_period;
+  return positive(o.message_period) && positive(o.claim_period) && positive(o.reign) && within(o.max_reign) &&
+         o.reign <= o.max_reign && within(o.change_period) && within(o.opening) && within(o.opening_period) &&
+         (o.opening == duration{} || o.opening_period > duration{}) && within(o.max_delay) && within(o.silence) &&
+         within(o.forget) && o.max_delay <= o.forget && within(o.pending_age) &&
+         o.message_period <= 2 * o.pending_age && o.forget.ns / quickest.ns < static_cast<std::int64_t>(most_jump) &&
+         instant{} - longest_duration <= o.first_message && o.first_message <= instant{} + longest_duration;
+}
 
 }  // namespace rota

@@ -25,6 +25,10 @@ template <vocabulary V>
 class insistence_monitor;
 template <vocabulary V>
 class literal_monitor;
+template <class First, class Second>
+class either_monitor;
+template <vocabulary V>
+struct claim_stamp;
 template <vocabulary V>
 class authority;
 template <vocabulary V, class Monitor>

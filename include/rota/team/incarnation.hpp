@@ -6,7 +6,8 @@
 namespace rota {
 
 /// Which life of a robot this is. It grows with every start, so that peers can tell a restarted robot from delayed messages
-/// of its former life: they ignore everything with a smaller incarnation than the greatest they heard of that robot.
+/// of its former life: they ignore what has a smaller incarnation than the greatest they heard of that robot, until they have
+/// not heard it for `robot_options::forget`.
 ///
 /// The library keeps no file and reads no clock, so the program obtains one at each start:
 /// * with storage that survives a restart, a counter: read it, add one, write it back, then `incarnation{counter}`;
@@ -22,6 +23,9 @@ struct incarnation {
   [[nodiscard]] static constexpr incarnation started_at(std::int64_t seconds_since_1970) noexcept {
     return {seconds_since_1970 > 0 ? static_cast<std::uint64_t>(seconds_since_1970) : 0};
   }
+
+  /// The greatest that peers accept. Greater numbers, such as random ones of 64 bits, are taken for flipped bits.
+  [[nodiscard]] static constexpr incarnation most() noexcept { return {(std::uint64_t{1} << 62) - 1}; }
 
   friend auto operator<=>(incarnation, incarnation) = default;
 };

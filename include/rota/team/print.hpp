@@ -214,6 +214,10 @@ template <vocabulary V, class Names = default_names>
            (d.executed.empty() ? "no plan type was entered" : "entered were " + detail::listing(d.executed, name));
   bool const leads = d.search.has_value() && d.leader.has_value();
   std::string out = d.search ? describe(*d.search, name) : to_string(d.reason);
+  if (d.search && d.reason == decision_reason::no_valid_allocation)
+    out = (d.search->proved ? "no allocation is valid" : "no valid allocation was found") +
+          detail::reasons(d.search->refusals, d.search->ignored, d.search->lie, name) +
+          "; the robot believes what the others say";
   if (!d.search && d.leader) out += ": agent " + name(*d.leader);
   out += d.own ? "; own task: " + to_string(*d.own, name) : std::string("; no task of its own");
   if (!d.deleted.empty()) out += "; silent agents were deleted: " + to_string(d.deleted, name);

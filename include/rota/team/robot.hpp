@@ -22,9 +22,9 @@ namespace rota {
 /// One robot of a team: what it believes about each plan type that it executes, and what it does about conflicts.
 ///
 /// A regular value: it owns no thread, clock, socket or pointer into the model, and may be copied, compared and restored.
-/// Time is a parameter. If a call names an earlier instant than the one before, the clock has been set back: the robot then
-/// moves all instants that it remembers back as far, as if no time had passed, and the next decision says so. It cannot tell
-/// a clock that was set forward from a pause. A robot trusts nothing from outside: `receive` refuses a bad message as a whole
+/// Time is a parameter; read the clock once for all calls of a turn. If a call names an earlier instant than the one before,
+/// the clock has been set back: the robot then moves all instants that it remembers back as far, as if no time had passed,
+/// and the next decision says so. It cannot tell a clock that was set forward from a pause. Clocks show less than a century. A robot trusts nothing from outside: `receive` refuses a bad message as a whole
 /// and never throws of itself, and its memory is bounded by the roster and the plan types entered.
 ///
 /// Every 30 ms: `receive` what the radio brought, `deliberate` on each plan type, send every `next_message`.
@@ -36,18 +36,11 @@ public:
 
   /// `everybody`: all agents that may ever be heard of; messages of others are refused. It may list the robot itself.
   /// `life`: greater at each restart; see `incarnation` for where to get it.
-  /// @pre `life` is not 0; periods are positive, and no duration is above `longest_duration`; 0 < reign ≤ max_reign, or nobody would
-  /// obey
+  /// @pre `life` is neither 0 nor above `incarnation::most`; `usable(options)`
   robot(agent_id self, std::span<agent_id const> everybody, rota::incarnation life, robot_options const& options = {})
       : self_(self), incarnation_(life), options_(options), peers_(self, everybody), timetable_(options) {
-    ROTA_ASSERT(life.value > 0);
-    ROTA_ASSERT(options.message_period > duration{} && options.claim_period > duration{});
-    ROTA_ASSERT(options.reign > duration{} && options.reign <= options.max_reign);
-    ROTA_ASSERT(options.max_reign <= longest_duration && options.message_period <= longest_duration &&
-                options.claim_period <= longest_duration);
-    ROTA_ASSERT(options.silence <= longest_duration && options.forget <= longest_duration &&
-                options.pending_age <= longest_duration);
-    ROTA_ASSERT(options.max_delay >= duration{} && options.max_delay <= longest_duration);
+    ROTA_ASSERT(life.value > 0 && life <= rota::incarnation::most());
+    ROTA_ASSERT(usable(options));
   }
 
   [[nodiscard]] agent_id self() const noexcept { return self_; }
@@ -57,17 +50,19 @@ public:
   /// For claims made from now on; claims in force keep their stamp.
   void set_confidence(std::uint32_t confidence) noexcept { options_.confidence = confidence; }
 
-  /// Begins to execute a plan type, alone and without a task. False if the robot already executes it. O(plans · tasks).
+  /// Begins to execute a plan type, alone and without a task. False if the robot already executes it, or executes as many as a
+  /// message may list, `plan_message::most_types`. O(plans · tasks).
   template <class Beliefs>
   bool enter(plan_type<V, Beliefs> const& pt, instant now) {
     synchronise(now);
     auto where = std::lower_bound(tracks_.begin(), tracks_.end(), pt.id(),
                                   [](track const& t, type_id key) { return t.names.type() < key; });
-    if (where == tracks_.end() || !(where->names.type() == pt.id())) {
-      where = tracks_.insert(where, track{});
-    } else if (where->executing) {
+    bool const known = where != tracks_.end() && where->names.type() == pt.id();
+    if (known && where->executing) return false;
+    if (std::count_if(tracks_.begin(), tracks_.end(), [](track const& t) { return t.executing; }) ==
+        static_cast<std::ptrdiff_t>(plan_message<V>::most_types))
       return false;
-    }
+    if (!known) where = tracks_.insert(where, track{});
     where->names = outline<V>(pt);
     where->executing = true;
     where->monitor = Monitor(monitor_options{options_.cycles, options_.pending_age, options_.yielding});
@@ -150,6 +145,7 @@ public:
       t.expire(now);
       part_change<V> change{m.sender};
       if (!listed) {
+        if (t.rule.obeys_after(m.sender, m.number.incarnation, m.claims)) continue;  // said before it took part
         change = t.dismiss(m.sender);
       } else if (t.rule.active()) {
         t.believed.hear_ruled(m.sender, said->place, now);
@@ -192,7 +188,7 @@ public:
     }
     t.freeze(now + c.remaining);
     if (heard.outcome == claim_outcome::challenged) {
-      (void)t.admit_all(c, now, options_.silence, options_.max_delay);
+      (void)t.admit_all(c, now, options_.silence, options_.max_delay + heard.late);
       // No longer than the claim that it answers: all authority that follows from one detection ends together. What is
       // believed now may mix plans, and nobody has judged it: the next deliberation says the answer.
       lead(t, now, never, now + (std::min)(options_.reign, c.remaining));
@@ -200,7 +196,7 @@ public:
       if (!was_active) t.monitor.clear();
       r.relay = heard.fresh;
       auto const atoms = t.admit_all(c.version == t.rule.current().version ? c : t.rule.current(), now,
-                                     options_.silence, options_.max_delay);
+                                     options_.silence, options_.max_delay + heard.late);
       r.imposed = difference(t.believed.atoms(), atoms);
       t.obey(atoms, r.imposed);
     }
@@ -303,9 +299,10 @@ private:
 
   /// Notes the time. If the clock was set back, everything remembered goes back with it.
   void synchronise(instant now) {
+    ROTA_ASSERT(instant{} - century <= now && now <= instant{} + century);
     if (now < latest_) {
       duration const d = now - latest_;
-      set_back_ = set_back_ - d;
+      set_back_ = (std::min)(set_back_ - d, century);
       peers_.shift(d);
       for (track& t : tracks_) t.shift(d);
       timetable_.shift(now, d);
@@ -349,6 +346,7 @@ private:
       if (t.rule.leading()) {
         t.rule.release();
         t.normalise();
+        timetable_.note_news();
       }
       t.monitor.clear();
       return;

@@ -277,9 +277,9 @@ private:
     for (auto& n : notes_) {
       auto const& name = minds_->name(n.name);
       if (name.leader != m.sender) continue;
-      // A claim that its leader has not made in this life, and that is long past, may be made again under its name.
+      // A claim that its leader has not made in this life, and that is past or over, may be made again under its name.
       bool const unmade = std::tie(name.incarnation, name.number) > std::tie(said.incarnation, m.claims);
-      bool const past = n.heard[i] != long_past && now_ - n.heard[i] > longest_delay;
+      bool const past = n.heard[i] == long_past || now_ - n.heard[i] > longest_delay;
       if (new_life || (unmade && past)) {
         n.heard[i] = not_yet;
         n.answered = static_cast<std::uint8_t>(n.answered & ~(1u << i));

@@ -58,7 +58,7 @@ public:
 
 private:
   /// No genuine number reaches this: greater ones are flipped bits, or forgeries that would mute their victim.
-  static constexpr std::uint64_t out_of_reach = std::uint64_t{1} << 62;
+  static constexpr std::uint64_t out_of_reach = incarnation::most().value + 1;
   [[nodiscard]] static bool within(std::uint64_t number) { return number > 0 && number < out_of_reach; }
   [[nodiscard]] static bool jumps(std::uint64_t from, std::uint64_t to) { return to > from && to - from > most_jump; }
 

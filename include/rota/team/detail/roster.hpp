@@ -35,7 +35,7 @@ public:
   [[nodiscard]] peer* find(agent_id b) { return peers_.find(b); }
   /// Moves all instants by d: the clock has been set.
   void shift(duration d) noexcept {
-    for (peer& p : peers_) p.heard += d;
+    for (peer& p : peers_) p.heard = moved(p.heard, d);
   }
 
   template <class Digest>

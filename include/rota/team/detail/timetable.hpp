@@ -36,8 +36,8 @@ public:
   }
   /// The clock shows `now`, which is d after what it would have shown.
   void shift(instant now, duration d) noexcept {
-    spoke_ += d;
-    slot_ = slot_after(now);
+    spoke_ = moved(spoke_, d);
+    slot_ = slot_ <= now - d ? now : slot_after(now);  // what was due stays due
   }
 
   template <class Digest>

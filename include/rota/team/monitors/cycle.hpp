@@ -65,7 +65,7 @@ public:
   void forget(agent_id b) { watches_.erase(b); }
   /// Moves all instants by d: the clock has been set.
   void shift(duration d) noexcept {
-    for (watch& w : watches_) w.opened = w.opened + d;
+    for (watch& w : watches_) w.opened = moved(w.opened, d);
   }
 
   template <class Digest>

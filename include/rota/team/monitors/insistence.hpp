@@ -10,8 +10,8 @@
 namespace rota {
 
 /// Counts how often a sender says that it has a task and is overridden: n times the same task, without being given it once,
-/// are a detection, whatever else it says between. If what it says between is accepted, it may be changing its mind rightly:
-/// then it takes `monitor_options::yielding` times more.
+/// are a detection. If something that it says between is accepted, it may be changing its mind rightly: then it takes
+/// `monitor_options::yielding` times more. Another task that it is not given either begins the count anew.
 ///
 /// It sees conflicts that complete no cycle: b insists on task 1, while a gives it 3, then 2, then 3 again, so no part is
 /// ever restored; or b leaves between, or yields for a moment. It does not see a sender that never says the same twice;
@@ -63,8 +63,8 @@ public:
   /// Moves all instants by d: the clock has been set.
   void shift(duration d) noexcept {
     for (watch& w : watches_) {
-      w.heard = w.heard + d;
-      w.last = w.last + d;
+      w.heard = moved(w.heard, d);
+      w.last = moved(w.last, d);
     }
   }
 
@@ -88,7 +88,7 @@ private:
     in<V> overridden{};       // what it said before and was not given
     instant last{};           // when it last said so
     bool yielded = false;     // it said something else between that was accepted
-    std::uint32_t count = 0;  // so often in a row, whatever else it said between
+    std::uint32_t count = 0;  // so often, whatever else it said between that was accepted
     friend bool operator==(watch const&, watch const&) = default;
   };
 

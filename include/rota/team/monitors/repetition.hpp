@@ -52,8 +52,8 @@ public:
   void forget(agent_id) noexcept {}
   /// Moves all instants by d: the clock has been set.
   void shift(duration d) noexcept {
-    for (auto& s : seen_) s.when = s.when + d;
-    last_ = last_ + d;
+    for (auto& s : seen_) s.when = moved(s.when, d);
+    last_ = moved(last_, d);
   }
 
   template <class Digest>
