@@ -2,6 +2,7 @@
 
 #include <rota/sim/invariants.hpp>
 #include <rota/sim/restless_world.hpp>
+#include <rota/team/budget.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,13 +14,13 @@
 /// Many runs with faults drawn at random, each held to what is promised.
 namespace rota::sim {
 
-/// A plan for two to eleven: one attacks, one or two defend, up to two support, and changes must save 10 cm.
+/// A plan for two to eleven: one attacks, one or two defend, up to two support, and changes must save half a metre.
 [[nodiscard]] inline playbook campaign_playbook() {
   plan_sketch s;
   s.id = {1};
   s.name = "Campaign";
   s.tasks = {{{1}, "Attack", {1, 1}, {1}}, {{2}, "Defend", {1, 2}, {2}}, {{3}, "Support", {0, 2}, {3}}};
-  s.hysteresis = 0.1;
+  s.hysteresis = 0.5;
   return *make_playbook({1}, {s});
 }
 
@@ -84,6 +85,9 @@ private:
     o.change_period = one_of({duration{}, milliseconds(30)});
     o.opening = one_of({duration{}, milliseconds(200)});
     o.fingerprints = coin(0.5);
+    o.resolution = !coin(0.2);  // then they must agree without a leader
+    o.message_period = one_of({milliseconds(50), milliseconds(100), milliseconds(100), milliseconds(250)});
+    if (coin(0.2)) o = sparing(one_of({milliseconds(100), milliseconds(200)}), o);
     run_.team.sensor = exact_sensor();
     calm_ = begin_ + between(seconds(4), seconds(10));
     run_.world = {between(milliseconds(200), seconds(4)), between(milliseconds(500), seconds(4)), calm_};

@@ -58,7 +58,8 @@ struct promises {
 /// What a team with these options promises if all see the same from `calm` on and no message is lost from `healed` on. With P
 /// the message period, D the loop, L the greatest delay, T the reign, m robots and A = (m + 1)(P + L + D), by the slowest clock:
 ///
-/// * hearing: healed + P + L; if robots have come back with an equal or smaller incarnation, or bits have flipped, `forget` later.
+/// * hearing: healed + P + L; if robots have come back with an equal or smaller incarnation, or bits have flipped, L + `forget`
+///   later.
 /// * settled: hearing + silence + L + one claim period + D until nobody believes in who is gone, A until all agree, T + m·L
 ///   until the authority of the last detection has ended, and A again.
 [[nodiscard]] inline promises promised(simulation_options const& o, std::size_t robots, instant calm) {
@@ -86,7 +87,8 @@ struct promises {
   p.healed = (std::max)(f.healed(), calm);
   bool disorder = f.flips.has_value();
   for (std::size_t i = 0; i < robots; ++i) disorder = disorder || !f.orderly(i);
-  p.hearing = p.healed + slow(o.robot.message_period) + in_time + (disorder ? slow(o.robot.forget) : duration{});
+  p.hearing =
+      p.healed + slow(o.robot.message_period) + in_time + (disorder ? in_time + slow(o.robot.forget) : duration{});
   duration const loop = slow(o.clock.loop + nanoseconds(o.clock.loop.ns / 1'000'000 * o.clock.loop_spread_ppm));
   duration const agreement = (m + 1) * (slow(o.robot.message_period) + in_time + loop);
   p.settled = p.hearing + p.silence + loop + agreement + slow(o.robot.reign) + m * in_time + agreement;
