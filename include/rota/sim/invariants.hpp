@@ -171,6 +171,9 @@ private:
            std::string(heard ? "accepts" : "drops") + " message " + std::to_string(m.number.sequence) + " of " +
                id(r.other) + ", life " + std::to_string(m.number.incarnation.value));
     if (!heard) return;
+    // Sent before the claim was made, and still under way after its end: it is taken for a sign that the claim was forged.
+    if (promises_.overdue && p.obeyed && m.number.incarnation == p.obeyed->incarnation && m.claims < p.obeyed->number)
+      p.obeyed.reset();
     p.last = m.number;
     p.heard = now;
     if (!promises_.genuine || !team_.plays(r.robot) || !rule(r.robot).obeying()) return;

@@ -52,6 +52,7 @@ struct promises {
   instant healed{};          ///< nothing goes wrong any more
   instant hearing{};         ///< all hear all
   instant settled{};         ///< nobody rules, and all agree
+  bool overdue = false;      ///< messages may be under way for longer than `max_delay`
   bool genuine = true;       ///< no bit flips: much is promised only of what was really said
 };
 
@@ -83,6 +84,7 @@ struct promises {
   duration const unexpected = (std::max)(p.delay - o.robot.max_delay, duration{});
   p.silence = slow(o.robot.silence + o.robot.claim_period) + o.robot.max_delay + m * unexpected;
   p.forget = o.robot.forget;
+  p.overdue = unexpected > duration{};
   p.genuine = !f.flips;
   p.healed = (std::max)(f.healed(), calm);
   bool disorder = f.flips.has_value();
