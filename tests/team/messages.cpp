@@ -242,6 +242,24 @@ TEST_F(messages, an_answer_says_what_a_deliberation_chose) {
   EXPECT_EQ(b.receive(*m, now).claim, rota::claim_outcome::adopted);
 }
 
+/// Nothing was heard since the last deliberation that changes what it chose: then that is the answer, at once.
+TEST_F(messages, an_answer_is_said_at_once_if_it_is_judged_already) {
+  for (bool const news : {false, true}) {
+    auto a = in_play(9);
+    a.receive(says(2, 1, defend), start);
+    (void)think(a, sees(9));
+    while (a.next_message(start)) {
+    }
+    a.receive(says(2, 2, news ? attack : defend), start);
+    ASSERT_EQ(a.receive(claim_by(8, 8), start).claim, rota::claim_outcome::challenged);
+    auto const m = a.next_message(start);
+    EXPECT_EQ(m.has_value(), !news);
+    if (!m) continue;
+    EXPECT_EQ(std::get<claim>(*m).atoms, (atoms{does(2, defend), does(9, attack)}));
+    EXPECT_EQ(std::get<claim>(*m).ages.size(), 2u);
+  }
+}
+
 /// Messages count microseconds. A claim with less left would say that none is left, and be refused.
 TEST_F(messages, the_last_claim_of_a_reign_has_a_microsecond_left) {
   rota::robot_options options;

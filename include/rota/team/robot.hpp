@@ -66,6 +66,7 @@ public:
     where->names = outline<V>(pt);
     where->executing = true;
     where->monitor = Monitor(monitor_options{options_.cycles, options_.pending_age, options_.yielding});
+    where->judged = false;
     where->believed = {};
     where->believed.admit(self_, now);
     timetable_.note_news();
@@ -154,7 +155,10 @@ public:
         change = t.believed.hear(m.sender, said->place, now);
       }
       if (!t.rule.active()) t.monitor.on_message(change, now);
-      if (!change.empty()) r.changes.push_back({t.names.type(), change});
+      if (!change.empty()) {
+        t.judged = false;
+        r.changes.push_back({t.names.type(), change});
+      }
       if (listed && said->fingerprint && *said->fingerprint != t.fingerprint())
         r.disagreements.push_back(t.names.type());
     }
@@ -162,8 +166,8 @@ public:
     return r;
   }
 
-  /// Obeys a greater claim, answers a smaller one with its own, and drops a claim that has ended. The answer is sent after the
-  /// next deliberation, which judges it. A claim is authoritative:
+  /// Obeys a greater claim, answers a smaller one with its own, and drops a claim that has ended. An answer says what a
+  /// deliberation chose: the last one, if nothing was heard since that changes it, or the next. A claim is authoritative:
   /// each copy of the claim in force undoes what coming, going or silence has changed at this follower since; but it does not
   /// bring back whom its leader has not heard for `robot_options::silence`.
   /// The leader judges whether its allocation is valid, under its own beliefs. O(|claim| log roster).
@@ -189,9 +193,9 @@ public:
     t.freeze(now + c.remaining);
     if (heard.outcome == claim_outcome::challenged) {
       (void)t.admit_all(c, now, options_.silence, options_.max_delay + heard.late);
-      // No longer than the claim that it answers: all authority that follows from one detection ends together. What is
-      // believed now may mix plans, and nobody has judged it: the next deliberation says the answer.
-      lead(t, now, never, now + (std::min)(options_.reign, c.remaining));
+      // No longer than the claim that it answers: all authority that follows from one detection ends together. What others
+      // have said since the last deliberation may mix plans, and nobody has judged it: then the next one says the answer.
+      lead(t, now, t.judged ? now : never, now + (std::min)(options_.reign, c.remaining));
     } else if (t.rule.obeying() && heard.outcome != claim_outcome::outranked) {
       if (!was_active) t.monitor.clear();
       r.relay = heard.fresh;
@@ -199,6 +203,7 @@ public:
                                      options_.silence, options_.max_delay + heard.late);
       r.imposed = difference(t.believed.atoms(), atoms);
       t.obey(atoms, r.imposed);
+      t.judged = false;
     }
     return r;
   }
@@ -241,6 +246,7 @@ public:
       d.reason = t->blind          ? decision_reason::no_valid_allocation
                  : d.event.empty() ? decision_reason::kept
                                    : decision_reason::reallocated;
+      t->judged = !t->blind;
       conclude(*t, d, now);
     }
     d.own = t->believed.part(self_);

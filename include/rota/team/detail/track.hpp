@@ -23,6 +23,7 @@ struct track {
   claim_stamp<V> stamp{};           // of this robot's claims; not computed anew before `frozen_until`
   instant frozen_until = long_ago;  // the end of the last claim that it knows of
   bool executing = false;
+  bool judged = false;  // the last deliberation chose what is believed, and nothing has changed it since
   bool lapsed = false;  // a reign has ended since the last deliberation
   bool blind = false;   // the last deliberation found no valid allocation: it neither counts cycles, claims nor answers
 
@@ -126,7 +127,7 @@ struct track {
 
   template <class Digest>
   void digest_into(Digest& d) const {
-    d(names.type(), believed, monitor, rule, stamp.confidence, executing, lapsed, blind).until(frozen_until);
+    d(names.type(), believed, monitor, rule, stamp.confidence, executing, judged, lapsed, blind).until(frozen_until);
   }
   friend bool operator==(track const&, track const&) = default;
 };
