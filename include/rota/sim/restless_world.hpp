@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/sim/perception.hpp>
 #include <rota/sim/random.hpp>
 #include <rota/sim/world.hpp>
 
