@@ -218,6 +218,12 @@ TEST(message_json, hostile_texts_are_refused_with_a_place) {
   EXPECT_NE(fault(R"({"rota": )" + std::string(100'000, '[')).reason.find("nested deeper than 8"), std::string::npos);
   EXPECT_NE(fault(with(plan_text, R"("claims")", "\"cl\xff\"")).reason.find("UTF-8"), std::string::npos);
   EXPECT_NE(fault(with(plan_text, R"("claims": 2)", R"("claims": 1e999)")).reason.find("no JSON"), std::string::npos);
+  EXPECT_EQ(fault(with(plan_text, R"("claims": 2)", R"("claims": 1e999)")).reason.find("exception"), std::string::npos);
+  std::string const zero(1, '\0');
+  for (auto const& behind : {zero, zero + "garbage", zero + std::string(plan_text)})
+    EXPECT_EQ(fault(plan_text + behind).reason, "no JSON: a zero byte");
+  auto const lines = fault(with(plan_text, R"("claims")", R"("cl\na\u0000ims")")).reason;
+  EXPECT_EQ(lines.find_first_of(std::string("\n\0", 2)), std::string::npos) << lines;
   EXPECT_EQ(fault(std::string(rota::most_json_bytes + 1, ' ')), (json_fault{"/", "longer than 131072 bytes"}));
   std::string many =
       R"({"rota": 1, "plan_message": {"sender": 7, "incarnation": 1, "sequence": 1, "claims": 0, "types": [)";

@@ -30,7 +30,7 @@ TEST_F(budget, what_depends_on_how_often_robots_are_heard_follows) {
   own.cycles = 7;
   EXPECT_EQ(rota::sparing(milliseconds(500), own).silence, seconds(20)) << "what is more patient stays";
   EXPECT_EQ(rota::sparing(milliseconds(500), own).cycles, 7u);
-  for (auto const gap : {milliseconds(1), milliseconds(20), milliseconds(100), seconds(1), seconds(10)}) {
+  for (auto const gap : {milliseconds(1), milliseconds(20), milliseconds(100), milliseconds(500), seconds(1)}) {
     auto const o = rota::sparing(gap);
     EXPECT_LE(o.change_period, gap);
     EXPECT_GE(o.silence, 8 * o.message_period);
@@ -43,7 +43,7 @@ TEST_F(budget, what_depends_on_how_often_robots_are_heard_follows) {
 TEST_F(budget, no_gap_is_asserted) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_DEATH((void)rota::sparing({}), "gap");
-  EXPECT_DEATH((void)rota::sparing(seconds(11)), "gap");
+  EXPECT_DEATH((void)rota::sparing(milliseconds(1001)), "gap");
 }
 #endif
 

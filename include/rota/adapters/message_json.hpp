@@ -310,7 +310,7 @@ template <vocabulary V>
   limits.max_depth = 8;
   limits.max_elements = 4096;
   alica::detail::json_guard guard{text, limits};
-  if (!nlohmann::json::sax_parse(text, &guard)) return refused{json_fault{guard.place, guard.reason}};
+  if (!guard.passes()) return refused{json_fault{guard.place, guard.reason}};
   auto const tree = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
   detail::json_fields f;
   message<V> m;

@@ -12,9 +12,9 @@ namespace rota {
 /// follows: silence, the age of pending changes, and how often a claim is repeated. All robots of a team need the same gap.
 ///
 /// It sends more while a conflict lasts, up to ten messages a second, and less where all agree. docs/protocol.md has the
-/// figures, which `rota budget` measures. @pre 1 ms ≤ gap ≤ 10 s
+/// figures, which `rota budget` measures. @pre 1 ms ≤ gap ≤ reign / 2, or who missed a leader's first claims would not be led
 [[nodiscard]] constexpr robot_options sparing(duration gap, robot_options o = {}) noexcept {
-  ROTA_ASSERT(gap >= milliseconds(1) && gap <= seconds(10));
+  ROTA_ASSERT(gap >= milliseconds(1) && 2 * gap <= o.reign);
   o.message_period = {gap.ns * 5 / 2};
   o.change_period = (std::min)(gap, milliseconds(100));
   o.claim_period = (std::max)(o.claim_period, gap);

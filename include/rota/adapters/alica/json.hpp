@@ -24,6 +24,14 @@ public:
 
   json_guard(std::string_view text, load_options const& limits) : text_(text), limits_(limits) {}
 
+  /// Whether the whole text is JSON within the limits. nlohmann takes a zero byte for the end of the text, so what stands behind
+  /// one would go unread.
+  [[nodiscard]] bool passes() {
+    auto const zero = text_.find('\0');
+    if (zero != std::string_view::npos) return fail(line_index(text_).place(zero), "no JSON: a zero byte");
+    return nlohmann::json::sax_parse(text_, this);
+  }
+
   std::string place;   ///< of the defect
   std::string reason;  ///< of the defect
 
@@ -47,6 +55,8 @@ public:
     auto const at = position == 0 ? 0 : position - 1;
     if (at >= text_.size()) return fail(line_index(text_).place(text_.size()), "cut off: the JSON text ends too early");
     std::string_view what = e.what();  // "[json.exception…] parse error at line 1, column 2: syntax error …"
+    if (auto const tag = what.find("] "); what.starts_with('[') && tag != std::string_view::npos)
+      what.remove_prefix(tag + 2);
     if (auto const colon = what.find(": "); colon != std::string_view::npos) what.remove_prefix(colon + 2);
     if (auto const token = what.find("; last read"); token != std::string_view::npos) what = what.substr(0, token);
     return fail(line_index(text_).place(at), "no JSON: " + std::string(what.substr(0, 160)));

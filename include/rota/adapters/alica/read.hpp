@@ -245,7 +245,7 @@ private:
 inline void read_json(draft& out, std::string_view text, load_options const& limits) {
   out.format = file_format::json;
   json_guard guard{text, limits};
-  if (!nlohmann::json::sax_parse(text, &guard)) {
+  if (!guard.passes()) {
     out.defect(guard.place, {}, guard.reason);
     return;
   }

@@ -136,13 +136,13 @@ struct reference {
   return "no plan file: its extension is none of theirs";
 }
 
-/// The name in quotes, cut to fit a line.
+/// The name in quotes, cut to fit a line. Control characters, which could make it look like two lines, become `?`.
 [[nodiscard]] inline std::string in_quotes(std::string_view s) {
   constexpr std::size_t limit = 60;
   std::string out = "\"";
   auto cut = (std::min)(s.size(), limit);
   while (cut > 0 && cut < s.size() && (static_cast<unsigned char>(s[cut]) & 0xC0U) == 0x80) --cut;
-  out += s.substr(0, cut);
+  for (char const c : s.substr(0, cut)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
   return out + (cut < s.size() ? "…\"" : "\"");
 }
 
