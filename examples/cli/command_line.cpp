@@ -202,14 +202,18 @@ void add_campaign(CLI::App& program, command& chosen) {
   sub.add_option("--seed", o->seed, "of the first run; the next has the next seed")
       ->check(check_seed)
       ->capture_default_str();
-  sub.add_option("--robots", o->robots, "size of the team, 2 to 11; by default the seed decides")
-      ->check(within(std::size_t{2}, std::size_t{sim::max_robots},
-                     "a whole number from 2 to " + std::to_string(sim::max_robots)));
-  sub.add_option("--delay", o->delay,
-                 "hold teams to this greatest delay in ms, whatever their radios do: to see a broken promise")
-      ->check(within(0.0, 10'000.0, "a delay from 0 to 10000 ms"));
+  auto* const robots = sub.add_option("--robots", o->robots, "size of the team, 2 to 11; by default the seed decides")
+                           ->check(within(std::size_t{2}, std::size_t{sim::max_robots},
+                                          "a whole number from 2 to " + std::to_string(sim::max_robots)));
+  auto* const delay =
+      sub.add_option("--delay", o->delay,
+                     "hold teams to this greatest delay in ms, whatever their radios do: to see a broken promise")
+          ->check(within(0.0, 10'000.0, "a delay from 0 to 10000 ms"));
   auto* const figures =
-      sub.add_flag("--figures", o->figures, "measure how long five robots take to overcome each fault instead");
+      sub.add_flag("--figures", o->figures, "measure how long five robots take to overcome each fault instead")
+          ->excludes(ticks)
+          ->excludes(robots)
+          ->excludes(delay);
   sub.add_option("--opening", o->opening, "how long a new claim is repeated every 30 ms, in ms")
       ->check(within(0.0, 2'000.0, "a time from 0 to 2000 ms"))
       ->capture_default_str()

@@ -71,6 +71,8 @@ TEST_F(rota_campaign, misuse_is_one_line) {
   for (std::string const delay : {"-1", "nan", ""}) expect_complaint(campaign({"--delay", delay}), {"--delay"});
   expect_complaint(campaign({"--runs", "1", "--ticks", "1"}), {"--ticks"});
   expect_complaint(campaign({"--opening", "1"}), {"--figures"});
+  for (std::string const other : {"--ticks", "--robots", "--delay"})
+    expect_complaint(campaign({"--figures", other, "5"}), {"--figures"});
   expect_complaint(campaign({"--figures", "--opening", "2001"}), {"--opening"});
   expect_complaint(campaign({"surplus"}), {"surplus"});
 }

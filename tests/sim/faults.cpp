@@ -154,6 +154,71 @@ TEST_F(sim_faults, one_bit_of_one_number_flips) {
   EXPECT_GT(*std::min_element(where.begin(), where.end()), 90);
 }
 
+/// Each number is drawn alike, and no flip leaves the message as it was.
+TEST_F(sim_faults, any_number_of_a_claim_flips) {
+  faults f;
+  f.flips = flipped_bits{always, 1};
+  interference air(f, 2, 1);
+  claim<names> c{{1}, {}, {3, {5}}, {5}, {1000}, 7, 2, milliseconds(900), {milliseconds(1), milliseconds(2)}};
+  c.atoms.insert({{4}, {1}, {1}});
+  c.atoms.insert({{5}, {1}, {2}});
+  std::vector<int> where(11);
+  for (int i = 0; i < 2000; ++i) {
+    auto const broken = air.flipped(c, 0, 1, at(0));
+    ASSERT_TRUE(broken);
+    auto const& b = *std::get_if<claim<names>>(&*broken);
+    EXPECT_NE(b, c);
+    bool const differs[] = {b.type != c.type,
+                            b.leader != c.leader,
+                            b.incarnation != c.incarnation,
+                            b.number != c.number,
+                            b.version != c.version,
+                            b.remaining != c.remaining,
+                            b.stamp.confidence != c.stamp.confidence,
+                            b.stamp.id != c.stamp.id,
+                            b.ages[0] != c.ages[0],
+                            b.ages[1] != c.ages[1],
+                            b.atoms != c.atoms};
+    EXPECT_EQ(std::count(std::begin(differs), std::end(differs), true), 1);
+    for (std::size_t k = 0; k < where.size(); ++k) where[k] += differs[k];
+  }
+  EXPECT_GT(*std::min_element(where.begin(), where.end()), 80);
+  EXPECT_GT(where.back(), 600) << "three numbers for each of two atoms";
+}
+
+/// A crash that does not happen, because the robot is down already, brings nobody back.
+TEST_F(sim_faults, a_robot_that_is_down_does_not_crash_and_comes_back_once) {
+  for (bool const forever : {true, false}) {
+    options.faults.crashes = {{2, at(1000), forever ? crash::forever : seconds(3)}, {2, at(1500), milliseconds(500)}};
+    play(5000, [&](team const& t, log_record const& r) {
+      EXPECT_EQ(t.up(2), r.time < at(1000) || (!forever && r.time >= at(4000))) << r.time.ns;
+    });
+  }
+}
+
+/// Unlike a clock's drift alone: a robot whose clock is 10 % fast deliberates 10 % more often.
+TEST_F(sim_faults, clocks_drift_in_the_simulation) {
+  options.faults.drifts = {{1, 100'000}};
+  int ticks[2] = {};
+  play(30'000, [&](team const&, log_record const& r) {
+    if (r.what == happening::deliberated && r.robot < 2) ++ticks[r.robot];
+  });
+  EXPECT_NEAR(ticks[1] * 1.0 / ticks[0], 1.1, 0.01);
+}
+
+/// Some numbers can only be refused: the flips of a run arrive at its robots.
+TEST_F(sim_faults, flipped_messages_arrive_and_are_refused) {
+  int refused[2] = {};
+  for (int flips : {0, 1}) {
+    options.faults.flips = flips ? std::optional(flipped_bits{always, 0.5}) : std::nullopt;
+    play(3000, [&](team const&, log_record const& r) {
+      if (r.what == happening::heard_plan) refused[flips] += r.verdict == verdict::refused ? 1 : 0;
+    });
+  }
+  EXPECT_EQ(refused[0], 0);
+  EXPECT_GT(refused[1], 30);
+}
+
 TEST_F(sim_faults, a_crashed_robot_is_mute_and_forgets_and_comes_back_with_the_incarnation_it_gets) {
   for (auto const& [as, life] :
        {std::pair{rebirth::greater, 1001u}, std::pair{rebirth::equal, 1000u}, std::pair{rebirth::smaller, 999u}}) {

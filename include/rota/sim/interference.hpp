@@ -51,11 +51,7 @@ public:
     auto& engine = links_[from * robots_ + to].engine;
     if (!chance(engine, flips_->probability)) return std::nullopt;
     auto broken = m;
-    if (auto* const plan = std::get_if<plan_message<names>>(&broken)) {
-      flip_one(*plan, engine);
-    } else {
-      flip_one(*std::get_if<claim<names>>(&broken), engine);
-    }
+    std::visit([&](auto& one) { flip_one(one, engine); }, broken);
     return broken;
   }
 
@@ -80,35 +76,39 @@ private:
     auto const bit = chance(engine, 0.5) ? uniform(engine, 0, 19) : uniform(engine, 0, bits - 1);
     x = static_cast<Number>(static_cast<std::uint64_t>(x) ^ std::uint64_t{1} << bit);
   }
-  static void flip_one(plan_message<names>& m, random_engine& engine) {
-    switch (uniform(engine, 0, m.types.empty() ? 3 : 6)) {
-    case 0: return flip(m.sender.value, engine);
-    case 1: return flip(m.number.incarnation.value, engine);
-    case 2: return flip(m.number.sequence, engine);
-    case 3: return flip(m.claims, engine);
-    case 4: return flip(m.types[0].type.value, engine);
-    case 5: return flip(m.types[0].leads, engine);
-    default:
-      if (m.types[0].place) flip(m.types[0].place->task.value, engine);
+  template <class Message>
+  static void flip_one(Message& m, random_engine& engine) {
+    std::int64_t count = 0;
+    each_number(m, [&](auto&) { ++count; });
+    auto chosen = uniform(engine, 0, count - 1);
+    each_number(m, [&](auto& x) {
+      if (chosen-- == 0) flip(x, engine);
+    });
+  }
+  template <class F>
+  static void each_number(in<names>& x, F const& f) {
+    f(x.agent.value), f(x.plan.value), f(x.task.value);
+  }
+  template <class F>
+  static void each_number(plan_message<names>& m, F const& f) {
+    f(m.sender.value), f(m.number.incarnation.value), f(m.number.sequence), f(m.claims);
+    for (auto& t : m.types) {
+      f(t.type.value), f(t.leads);
+      if (t.place) f(t.place->plan.value), f(t.place->task.value), f(t.place->state.value);
+      if (t.fingerprint) f(*t.fingerprint);
     }
   }
-  static void flip_one(claim<names>& c, random_engine& engine) {
-    switch (uniform(engine, 0, c.atoms.empty() ? 6 : 8)) {
-    case 0: return flip(c.leader.value, engine);
-    case 1: return flip(c.incarnation.value, engine);
-    case 2: return flip(c.number, engine);
-    case 3: return flip(c.version, engine);
-    case 4: return flip(c.remaining.ns, engine);
-    case 5: return flip(c.stamp.confidence, engine);
-    case 6: return flip(c.stamp.id.value, engine);
-    case 7: return flip(c.ages[0].ns, engine);
-    default: {
-      auto x = *c.atoms.begin();
-      c.atoms.erase(x);
-      flip(chance(engine, 0.5) ? x.agent.value : x.task.value, engine);
-      c.atoms.insert(x);
+  template <class F>
+  static void each_number(claim<names>& c, F const& f) {
+    f(c.type.value), f(c.leader.value), f(c.incarnation.value), f(c.number), f(c.version), f(c.remaining.ns);
+    f(c.stamp.confidence), f(c.stamp.id.value);
+    for (duration& age : c.ages) f(age.ns);
+    allocation_atoms<names> atoms;
+    for (in<names> x : c.atoms) {
+      each_number(x, f);
+      atoms.insert(x);
     }
-    }
+    c.atoms = std::move(atoms);
   }
 
   std::optional<burst_loss> bursts_;

@@ -120,7 +120,7 @@ private:
     instant at{};
     std::size_t robot = 0;
     kind what{};
-    std::uint32_t value = 0;  // the confidence, or the rebirth
+    std::uint32_t value = 0;  // the confidence, or which crash it is
   };
 
   struct robot_record {
@@ -178,23 +178,21 @@ private:
   /// Puts the faults that change a robot into the queue.
   void schedule() {
     using what = typename upheaval::kind;
-    auto const at = [&](instant t, std::size_t robot, what w, std::uint32_t value = 0) {
-      push(t, kind::upheaval, robot, static_cast<std::uint32_t>(upheavals_.size()));
-      upheavals_.push_back({t, robot, w, value});
-    };
-    for (crash const& c : faults_.crashes) {
-      at(c.at, c.robot, what::crash);
-      if (c.down != crash::forever) at(c.at + c.down, c.robot, what::restart, static_cast<std::uint32_t>(c.as));
-    }
+    std::uint32_t which = 0;
+    for (crash const& c : faults_.crashes) schedule({c.at, c.robot, what::crash, which++});
     for (absence const& a : faults_.absences) {
-      at(a.when.from, a.robot, what::leave);
-      if (a.when.until != never) at(a.when.until, a.robot, what::enter);
+      schedule({a.when.from, a.robot, what::leave});
+      if (a.when.until != never) schedule({a.when.until, a.robot, what::enter});
     }
-    for (confidence_change const& c : faults_.confidences) at(c.at, c.robot, what::confidence, c.confidence);
+    for (confidence_change const& c : faults_.confidences) schedule({c.at, c.robot, what::confidence, c.confidence});
+  }
+  void schedule(upheaval const& u) {
+    push(u.at, kind::upheaval, u.robot, static_cast<std::uint32_t>(upheavals_.size()));
+    upheavals_.push_back(u);
   }
 
   template <class Observer>
-  void undergo(upheaval const& u, Observer& observe) {
+  void undergo(upheaval u, Observer& observe) {
     robot_record& r = robots_[u.robot];
     instant const local = r.clock.local(now_);
     switch (u.what) {
@@ -203,11 +201,13 @@ private:
       if (std::exchange(r.reign, 0) != 0) tell(observe, u.robot, happening::reign_ended, {});
       r.wakeup = never;
       tell(observe, u.robot, happening::crashed, {});
+      if (auto const down = faults_.crashes[u.value].down; down != crash::forever)
+        schedule({now_ + down, u.robot, upheaval::kind::restart, u.value});
       return;
     case upheaval::kind::restart: {
       if (r.up) return;
       auto const last = r.mind.incarnation();
-      auto const as = static_cast<rebirth>(u.value);
+      auto const as = faults_.crashes[u.value].as;
       incarnation const life{as == rebirth::greater ? r.greatest.value + 1
                              : as == rebirth::equal ? last.value
                                                     : (std::max<std::uint64_t>)(last.value - 1, 1)};
