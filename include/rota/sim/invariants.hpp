@@ -235,7 +235,8 @@ private:
       return fail(invariant::reigns_bounded, r, "claim " + shown(x) + " has " + shown(a.expiry() - now) + " left");
 
     if (!v.held || v.held->what != x) {
-      if (v.held && v.held->what.leader != x.leader && now < v.held->end && !(v.held->stamp < c.stamp))
+      if (v.held && v.held->what.leader != x.leader && now < v.held->end && !(v.held->stamp < c.stamp) &&
+          !claims_anew(r, v.held->what))
         return fail(invariant::greater_stamps, r, "turns from " + shown(v.held->what) + " to " + shown(x));
       v.held = {x, c.stamp, now, a.expiry()};
     }
@@ -264,6 +265,12 @@ private:
     for (in<names> const& atom : r.believed)
       if (!c.atoms.contains(atom))
         return fail(invariant::followers_follow, r, "believes more than claim " + shown(x) + " says");
+  }
+
+  /// Whether this is a later claim of the same leader: that ends the one in force, so it may be answered.
+  [[nodiscard]] static bool claims_anew(log_record const& r, identity const& held) {
+    auto const* const c = r.content ? std::get_if<claim<names>>(r.content) : nullptr;
+    return r.what == happening::heard_claim && c && index(c->leader) == held.leader && held < name(*c);
   }
 
   /// A claim: one that its leader leads with is no ghost here; and who obeys has taken in all of it.
