@@ -59,6 +59,22 @@ TEST_F(stories, a_story_that_is_not_so_names_its_line) {
   EXPECT_EQ(play_text(told + "2 hears message 1 of 1"), "line 5: 2 hears message 1 of 1: no such message was said");
   EXPECT_EQ(play_text(told + "3 leaves"), "line 5: 3 leaves: there is no such robot");
   EXPECT_EQ(play_text(told + "1 dances"), "line 5: 1 dances: no such sentence");
+  std::pair<char const*, char const*> const empty[] = {
+      {"2 hears 1", "there is nothing that it has not heard"},
+      {"2 never hears 1", "there is nothing that it has not heard"},
+      {"1 speaks\n1 and 2 are out of range\n2 hears 1", "it is out of range"},
+      {"1 and 7 are out of range", "there is no such robot"},
+      {"2 dies\n2 speaks", "it is dead"},
+      {"2 dies\n1 speaks\n2 hears 1", "it is dead"},
+      {"cycles 2", "the robots have their options already"},
+      {"robots 3", "the robots have their options already"},
+      {"until 55 ms: all think, speak and hear", "it goes on in steps of 10 ms"},
+      {"cycles 99999999999", "no such sentence"}};
+  for (auto const& [line, why] : empty) {
+    auto const said = play_text(told + line);
+    EXPECT_TRUE(said.ends_with(std::string(": ") + why)) << line << ": " << said;
+  }
+  EXPECT_EQ(play_text("expect everybody is free"), "line 1: expect everybody is free: there are no robots yet");
   EXPECT_EQ(play_text(told + "expect everybody agrees"), "line 5: expect everybody agrees: they do not");
 }
 

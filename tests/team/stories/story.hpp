@@ -55,6 +55,7 @@ private:
     if (until) {
       read(line);
       need(is("all think, speak and hear"), "all think, speak and hear");
+      need((then - start).ns % 10'000'000 == 0, "it goes on in steps of 10 ms");
       return go_on(then);
     }
     now_ = then;
@@ -69,17 +70,17 @@ private:
   };
   static std::vector<form> const& forms() {
     static std::vector<form> const all{
-        {"cycles #", [](story& s) { s.options_.cycles = static_cast<std::uint32_t>(s.n_[0]); }},
-        {"reign # ms", [](story& s) { s.options_.reign = s.options_.max_reign = s.ms(0); }},
-        {"silence # ms", [](story& s) { s.options_.silence = s.ms(0); }},
-        {"message period # ms", [](story& s) { s.options_.message_period = s.ms(0); }},
-        {"claim period # ms", [](story& s) { s.options_.claim_period = s.ms(0); }},
+        {"cycles #", [](story& s) { s.early().cycles = static_cast<std::uint32_t>(s.n_[0]); }},
+        {"reign # ms", [](story& s) { s.early().reign = s.options_.max_reign = s.ms(0); }},
+        {"silence # ms", [](story& s) { s.early().silence = s.ms(0); }},
+        {"message period # ms", [](story& s) { s.early().message_period = s.ms(0); }},
+        {"claim period # ms", [](story& s) { s.early().claim_period = s.ms(0); }},
         {"opening # ms, every # ms",
-         [](story& s) { s.options_.opening = s.ms(0), s.options_.opening_period = s.ms(1); }},
-        {"max delay # ms", [](story& s) { s.options_.max_delay = s.ms(0); }},
-        {"forget # ms", [](story& s) { s.options_.forget = s.ms(0); }},
-        {"incarnation #", [](story& s) { s.life_ = s.n_[0]; }},
-        {"robots #", [](story& s) { s.begin_all(s.n_[0]); }},
+         [](story& s) { s.early().opening = s.ms(0), s.options_.opening_period = s.ms(1); }},
+        {"max delay # ms", [](story& s) { s.early().max_delay = s.ms(0); }},
+        {"forget # ms", [](story& s) { s.early().forget = s.ms(0); }},
+        {"incarnation #", [](story& s) { s.early(), s.life_ = s.n_[0]; }},
+        {"robots #", [](story& s) { s.early(), s.begin_all(s.n_[0]); }},
         {"everybody forwards what is news", [](story& s) { s.forward_ = true; }},
         {"# and # are out of range", [](story& s) { s.apart(true); }},
         {"# and # are in range", [](story& s) { s.apart(false); }},
@@ -98,12 +99,13 @@ private:
         {"# dies", [](story& s) { s.who(0).alive = false; }},
         {"# restarts with incarnation #", [](story& s) { s.begin(s.n_[0], s.n_[1], s.who(0).now(s.now_)); }},
         {"the clock of # goes back # ms", [](story& s) { s.who(0).clock -= s.ms(1); }},
-        {"# deliberates", [](story& s) { s.think(s.who(0)); }},
-        {"# speaks", [](story& s) { s.speak(s.who(0)); }},
-        {"# thinks and speaks", [](story& s) { s.think(s.who(0)), s.speak(s.who(0)); }},
-        {"# hears #", [](story& s) { s.hear(s.n_[0], s.n_[1]); }},
-        {"# never hears #", [](story& s) { s.who(0).heard[s.n_[1]] = s.who(1).said.size(); }},
-        {"# hears message # of #", [](story& s) { s.hear(s.n_[0], s.n_[2], static_cast<std::size_t>(s.n_[1])); }},
+        {"# deliberates", [](story& s) { s.think(s.living(0)); }},
+        {"# speaks", [](story& s) { s.speak(s.living(0)); }},
+        {"# thinks and speaks", [](story& s) { s.think(s.living(0)), s.speak(s.living(0)); }},
+        {"# hears #", [](story& s) { s.hear_what_is_new(); }},
+        {"# never hears #", [](story& s) { s.unheard() = s.who(1).said.size(); }},
+        {"# hears message # of #",
+         [](story& s) { s.living(0), s.who(2), s.hear(s.n_[0], s.n_[2], static_cast<std::size_t>(s.n_[1])); }},
 
         {"expect # leads", [](story& s) { s.state(s.who(0), "leads"); }},
         {"expect # leads until # ms", [](story& s) { s.state(s.who(0), "leads", 1); }},
@@ -136,13 +138,22 @@ private:
 
   template <class F>
   void each(F f) {
+    need(!cast_.empty(), "there are no robots yet");
     for (auto& [n, a] : cast_)
       if (a.alive) f(a);
   }
   void enter(actor& a, rota::plan_type<soccer, view> const& type) {
     need(a.mind.enter(type, a.now(now_)), "it takes part already");
   }
-  void apart(bool are) { apart_[{n_[0], n_[1]}] = apart_[{n_[1], n_[0]}] = are; }
+  /// The options, while there are no robots that would not hear of a change.
+  rota::robot_options& early() {
+    need(cast_.empty(), "the robots have their options already");
+    return options_;
+  }
+  void apart(bool are) {
+    who(0), who(1);
+    apart_[{n_[0], n_[1]}] = apart_[{n_[1], n_[0]}] = are;
+  }
   void begin_all(int robots) {
     count_ = robots;
     for (int n = 1; n <= robots; ++n) begin(n, life_, start + rota::milliseconds(10 * n));
@@ -167,6 +178,17 @@ private:
   }
   void speak(actor& a) {
     while (auto m = a.mind.next_message(a.now(now_))) a.said.push_back(*std::move(m));
+  }
+  /// How many messages the first robot named has heard of the second, which has said more.
+  std::size_t& unheard() {
+    auto& done = living(0).heard[n_[1]];
+    need(done < who(1).said.size(), "there is nothing that it has not heard");
+    return done;
+  }
+  void hear_what_is_new() {
+    unheard();
+    need(!apart_[{n_[0], n_[1]}], "it is out of range");
+    hear(n_[0], n_[1]);
   }
   void hear(int to, int from) {
     auto& done = cast_.at(to).heard[from];
@@ -249,7 +271,7 @@ private:
     std::size_t k = 0;
     for (std::string w; in >> w; ++k) {
       if (k == words_.size()) return false;
-      bool const digits = words_[k].find_first_not_of("0123456789") == std::string::npos;
+      bool const digits = words_[k].size() < 10 && words_[k].find_first_not_of("0123456789") == std::string::npos;
       if (w == "#" && digits) n_.push_back(std::stoi(words_[k]));
       if (w == "*") word_ = words_[k];
       if (w == "#" ? !digits : w != "*" && w != words_[k]) return false;
@@ -263,6 +285,10 @@ private:
     auto const where = cast_.find(n_[k]);
     need(where != cast_.end(), "there is no such robot");
     return where->second;
+  }
+  actor& living(std::size_t k) {
+    need(who(k).alive, "it is dead");
+    return who(k);
   }
   rota::duration ms(std::size_t k) const { return rota::milliseconds(n_[k]); }
 
