@@ -52,7 +52,7 @@ std::string told(sim::campaign_run const& run) {
   for (auto const& x : f.broken) line(robot(x.to) + " hears nothing of " + robot(x.from) + ' ' + time_text(x.when));
   for (auto const& x : f.crashes) {
     constexpr std::array words{"a greater", "an equal", "a smaller"};
-    bool const gone = x.down == sim::crash::forever;
+    bool const gone = x.down == sim::crash::for_good;
     line(robot(x.robot) + " crashes at " + time_text(x.at) +
          (gone ? std::string()
                : ", and is back at " + time_text(x.at + x.down) + " with " + words[static_cast<std::size_t>(x.as)] +

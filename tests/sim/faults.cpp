@@ -188,10 +188,10 @@ TEST_F(sim_faults, any_number_of_a_claim_flips) {
 
 /// A crash that does not happen, because the robot is down already, brings nobody back.
 TEST_F(sim_faults, a_robot_that_is_down_does_not_crash_and_comes_back_once) {
-  for (bool const forever : {true, false}) {
-    options.faults.crashes = {{2, at(1000), forever ? crash::forever : seconds(3)}, {2, at(1500), milliseconds(500)}};
+  for (bool const for_good : {true, false}) {
+    options.faults.crashes = {{2, at(1000), for_good ? crash::for_good : seconds(3)}, {2, at(1500), milliseconds(500)}};
     play(5000, [&](team const& t, log_record const& r) {
-      EXPECT_EQ(t.up(2), r.time < at(1000) || (!forever && r.time >= at(4000))) << r.time.ns;
+      EXPECT_EQ(t.up(2), r.time < at(1000) || (!for_good && r.time >= at(4000))) << r.time.ns;
     });
   }
 }

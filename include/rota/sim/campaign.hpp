@@ -127,7 +127,7 @@ private:
     some(f.crashes, 0.4, 2, [&] {
       auto const when = some_time();
       bool const returns = run_.robots <= 4 || coin(0.8);  // two or more stay
-      return crash{some_robot(), when.from, returns ? when.until - when.from : crash::forever,
+      return crash{some_robot(), when.from, returns ? when.until - when.from : crash::for_good,
                    one_of({rebirth::greater, rebirth::greater, rebirth::equal, rebirth::smaller})};
     });
     some(f.drifts, 0.4, 3, [&] { return clock_drift{some_robot(), uniform(engine_, -10'000, 10'000)}; });

@@ -53,7 +53,7 @@ public:
       auto o = options(seed, 0.6);
       auto const who = some(engine);
       instant const death = instant{} + between(engine, seconds(3), seconds(6));
-      o.faults.crashes = {{who, death, crash::forever}};
+      o.faults.crashes = {{who, death, crash::for_good}};
       simulation<restless_world> team(book_, quarrel(seed, engine), o);
       instant last = death;
       bool believed[robots] = {};

@@ -60,9 +60,9 @@ struct broken_link {
 /// The incarnation that a robot obtains for its next life, compared with that of its last one.
 enum class rebirth : unsigned char { greater, equal, smaller };
 
-/// A robot stops, loses all that it knows, and starts again later, unless `down` is `forever`. What it has said arrives.
+/// A robot stops, loses all that it knows, and starts again later, unless `down` is `for_good`. What it has said arrives.
 struct crash {
-  static constexpr duration forever = seconds(1'000'000);
+  static constexpr duration for_good = seconds(1'000'000);
 
   std::size_t robot = 0;
   instant at{};
@@ -126,7 +126,7 @@ struct faults {
     if (flips) at(flips->when.until);
     for (auto const& x : partitions) at(x.when.until);
     for (auto const& x : broken) at(x.when.until);
-    for (auto const& x : crashes) at(x.down == crash::forever ? x.at : x.at + x.down);
+    for (auto const& x : crashes) at(x.down == crash::for_good ? x.at : x.at + x.down);
     for (auto const& x : stuck) at(x.when.until);
     for (auto const& x : blind) at(x.when.until);
     for (auto const& x : absences) at(x.when.until);

@@ -201,7 +201,7 @@ private:
       if (std::exchange(r.reign, 0) != 0) tell(observe, u.robot, happening::reign_ended, {});
       r.wakeup = never;
       tell(observe, u.robot, happening::crashed, {});
-      if (auto const down = faults_.crashes[u.value].down; down != crash::forever)
+      if (auto const down = faults_.crashes[u.value].down; down != crash::for_good)
         schedule({now_ + down, u.robot, upheaval::kind::restart, u.value});
       return;
     case upheaval::kind::restart: {
