@@ -326,15 +326,11 @@ private:
     return rest;
   }
 
-  static reception<V> dropped(refusal reason) {
+  /// The answer to a message that changes nothing: refused for a reason, or else stale.
+  static reception<V> dropped(refusal reason = refusal::none) {
     reception<V> r;
-    r.verdict = verdict::refused;
+    r.verdict = reason == refusal::none ? verdict::stale : verdict::refused;
     r.reason = reason;
-    return r;
-  }
-  static reception<V> dropped() {
-    reception<V> r;
-    r.verdict = verdict::stale;
     return r;
   }
 
