@@ -274,13 +274,19 @@ private:
     bool const new_life = !(last < said);
     if (new_life && now_ - last.when <= impatient().forget) return "an old message is taken in";
     last = said;
+    // If its leader has not made the last claim in this life, and that is past or over, all are forgotten: its claims may be made
+    // again under their names.
+    std::array<bool, 2> anew{new_life, new_life};
+    for (auto const& n : notes_) {
+      auto const& name = minds_->name(n.name);
+      bool const unmade = std::tie(name.incarnation, name.number) > std::tie(said.incarnation, m.claims);
+      bool const past = n.heard[i] == long_past || now_ - n.heard[i] > longest_delay;
+      if (name.leader == m.sender && unmade && past) anew[name.type == type_ids[0] ? 0 : 1] = true;
+    }
     for (auto& n : notes_) {
       auto const& name = minds_->name(n.name);
       if (name.leader != m.sender) continue;
-      // A claim that its leader has not made in this life, and that is past or over, may be made again under its name.
-      bool const unmade = std::tie(name.incarnation, name.number) > std::tie(said.incarnation, m.claims);
-      bool const past = n.heard[i] == long_past || now_ - n.heard[i] > longest_delay;
-      if (new_life || (unmade && past)) {
+      if (anew[name.type == type_ids[0] ? 0 : 1]) {
         n.heard[i] = not_yet;
         n.answered = static_cast<std::uint8_t>(n.answered & ~(1u << i));
       }
