@@ -268,6 +268,24 @@ TEST_F(corners, a_late_copy_of_a_claim_makes_nobody_whom_it_names_younger) {
   EXPECT_EQ(a.believes(play_id)->heard(agent(2)), heard);
 }
 
+/// The same where the late copy is answered: while the first came, a greater leader ruled.
+TEST_F(corners, a_late_copy_that_is_answered_makes_nobody_whom_it_names_younger) {
+  for (int late : {0, 1900}) {
+    auto a = in_play(5);
+    a.receive(says(9, 1, defend), start);
+    a.receive(claim_by(9, 9), start);
+    auto c = claim_by(3, 3);
+    c.atoms.insert(does(2, defend));
+    c.ages = {rota::duration{}, rota::duration{}};
+    EXPECT_EQ(a.receive(c, at(10)).claim, rota::claim_outcome::outranked);
+    auto over = says(9, 2, defend);
+    over.claims = 1;
+    a.receive(over, at(10));
+    EXPECT_EQ(a.receive(c, at(10 + late)).claim, rota::claim_outcome::challenged);
+    EXPECT_EQ(a.believes(play_id)->takes_part(agent(2)), late == 0) << "it was heard " << late << " ms ago, and more";
+  }
+}
+
 TEST_F(corners, a_claim_keeps_to_one_plan) {
   auto const one_plan = [](soccer::plan p) {
     return *rota::plan<soccer, view>::make(
