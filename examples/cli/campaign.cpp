@@ -80,7 +80,7 @@ campaign_summary summary_of(campaign_options const& o, sim::campaign_report cons
   if (r.broken)
     out.broken =
         campaign_summary::failure{std::string(to_string(r.broken->what)), to_milliseconds(r.broken->at - instant{}),
-                                  r.broken->robot + 1, r.broken->why, again(o, r.failed)};
+                                  r.broken->robot + 1, r.broken->reason, again(o, r.failed)};
   return out;
 }
 
@@ -88,7 +88,7 @@ std::string as_text(campaign_options const& o, campaign_summary const& s, sim::c
   std::string out = counted(s.runs, "run") + " from seed " + std::to_string(s.seed) + " on: ";
   if (s.broken) {
     out += "a promise was broken.\n\n  " + s.broken->promise + ": at " + time_text(r.broken->at) + ", robot " +
-           std::to_string(s.broken->robot) + ": " + s.broken->why + "\n  again: " + s.broken->again + "\n\n" +
+           std::to_string(s.broken->robot) + ": " + s.broken->reason + "\n  again: " + s.broken->again + "\n\n" +
            told(sim::make_run(r.failed, o.robots)) + '\n';
   } else {
     out += "every promise was kept at every step.\n\n";

@@ -14,7 +14,7 @@ struct campaign_summary {
     std::string promise;
     double at_ms = 0;
     std::size_t robot = 0;  ///< its id
-    std::string why;
+    std::string reason;
     std::string again;  ///< the command that plays this run again
   };
   std::uint64_t seed = 0;

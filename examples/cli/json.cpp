@@ -368,7 +368,7 @@ std::string as_json(campaign_summary const& s) {
     out["broken"]["promise"] = s.broken->promise;
     out["broken"]["at_ms"] = s.broken->at_ms;
     out["broken"]["robot"] = s.broken->robot;
-    out["broken"]["why"] = s.broken->why;
+    out["broken"]["reason"] = s.broken->reason;
     out["broken"]["again"] = s.broken->again;
   }
   out["runs"] = s.runs;

@@ -22,7 +22,7 @@ std::uint64_t more() {
 std::string shown(campaign_report const& r) {
   if (!r.broken) return "nothing is broken";
   return std::string(to_string(r.broken->what)) + " at " + std::to_string(r.broken->at.ns) + " ns, robot " +
-         std::to_string(r.broken->robot + 1) + ": " + r.broken->why + "\nagain: rota campaign --runs 1 --seed " +
+         std::to_string(r.broken->robot + 1) + ": " + r.broken->reason + "\nagain: rota campaign --runs 1 --seed " +
          std::to_string(r.failed);
 }
 
@@ -79,7 +79,7 @@ void expect_broken(invariant what, Spoil spoil, std::uint64_t runs = 60) {
     auto const again = play_run<Monitor>(book, run);  // the seed replays it
     ASSERT_TRUE(again.broken);
     EXPECT_EQ(again.broken->at, r.broken->at);
-    EXPECT_EQ(again.broken->why, r.broken->why);
+    EXPECT_EQ(again.broken->reason, r.broken->reason);
     return;
   }
   ADD_FAILURE() << "nobody broke: " << to_string(what);

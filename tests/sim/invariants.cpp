@@ -100,11 +100,11 @@ struct invariants : testing::Test {
     message<names> const m = p;
     tell(t, i, happening::heard_plan, p.sender.value - 1, &m, std::nullopt, v);
   }
-  void fine() const { EXPECT_FALSE(watch->broken()) << watch->broken()->why; }
+  void fine() const { EXPECT_FALSE(watch->broken()) << watch->broken()->reason; }
   void broken(invariant what) const {
     ASSERT_TRUE(watch->broken());
-    EXPECT_EQ(watch->broken()->what, what) << watch->broken()->why;
-    EXPECT_FALSE(watch->broken()->why.empty());
+    EXPECT_EQ(watch->broken()->what, what) << watch->broken()->reason;
+    EXPECT_FALSE(watch->broken()->reason.empty());
   }
 };
 

@@ -21,7 +21,7 @@ struct violation {
   invariant what{};
   instant at{};
   std::size_t robot = 0;  ///< index; its id is one more
-  std::string why;
+  std::string reason;
 };
 
 /// What a run has come through, so that a quiet one is not taken for a proof.
