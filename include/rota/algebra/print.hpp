@@ -38,7 +38,7 @@ template <ordered_atom Atom, class Names = default_names>
 /// `({In(1, 0, 1)}, {In(2, 0, 0)})`: the additions, then the subtractions.
 template <ordered_atom Atom, class Names = default_names>
 [[nodiscard]] std::string to_string(event<Atom> const& e, Names const& name = {}) {
-  return "(" + to_string(e.additions(), name) + ", " + to_string(e.subtractions(), name) + ")";
+  return '(' + to_string(e.additions(), name) + ", " + to_string(e.subtractions(), name) + ")";
 }
 template <atom_universe U, class Names = default_names>
 [[nodiscard]] std::string to_string(dense_event<U> const& e, Names const& name = {}) {

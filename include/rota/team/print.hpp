@@ -123,12 +123,12 @@ namespace rota {
 /// `(confidence, a)`.
 template <vocabulary V, class Names = default_names>
 [[nodiscard]] std::string to_string(claim_stamp<V> const& s, Names const& name = {}) {
-  return "(" + std::to_string(s.confidence) + ", " + name(s.id) + ")";
+  return '(' + std::to_string(s.confidence) + ", " + name(s.id) + ")";
 }
 /// The triple `(p, t, z)`.
 template <vocabulary V, class Names = default_names>
 [[nodiscard]] std::string to_string(placement<V> const& p, Names const& name = {}) {
-  return "(" + name(p.plan) + ", " + name(p.task) + ", " + name(p.state) + ")";
+  return '(' + name(p.plan) + ", " + name(p.task) + ", " + name(p.state) + ")";
 }
 /// `pt: (p, t, z)`, or `pt: no task`.
 template <vocabulary V, class Names = default_names>
