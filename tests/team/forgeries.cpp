@@ -65,6 +65,42 @@ TEST_F(forgeries, a_replayed_claim_keeps_nobody_from_leading) {
   EXPECT_GT(led, 2);
 }
 
+/// Thirty claims of robot 9, recorded and replayed at a robot that never heard them: each rules for as long as it says, and once.
+TEST_F(forgeries, recorded_claims_rule_once_and_no_longer_than_they_say) {
+  auto a = in_play(1);
+  int ruled = 0;
+  for (int round = 0; round < 2; ++round)
+    for (std::uint64_t number = 1; number <= 30; ++number) {
+      auto const then = at(1'000'000 + 100'000 * round + 3'000 * static_cast<int>(number));
+      bool const obeyed = a.receive(claim_by(9, 9, number), then).claim == claim_outcome::adopted;
+      ruled += obeyed ? 1 : 0;
+      EXPECT_EQ(obeyed, round == 0) << number;
+      (void)think(a, sees(1), then + milliseconds(1999));
+      EXPECT_EQ(a.rule(play_id)->obeying(), round == 0);
+      (void)think(a, sees(1), then + milliseconds(2000));
+      EXPECT_FALSE(a.rule(play_id)->active());
+    }
+  EXPECT_EQ(ruled, 30);
+}
+
+/// A board that obtains the same incarnation, or a smaller one, at each start is heard `forget` after it was last heard.
+TEST_F(forgeries, a_restart_with_no_greater_incarnation_is_heard_in_the_end) {
+  for (std::uint64_t const life : {1u, 2u}) {
+    auto a = in_play(1);
+    auto m = says(2, 500, attack);
+    m.number.incarnation = {2};
+    EXPECT_EQ(a.receive(m, start).verdict, verdict::accepted);
+    m.number = {{life}, 0};
+    int heard_after = 0;
+    for (int ms = 100; ms < 60'000 && heard_after == 0; ms += 100) {
+      m.number.sequence = static_cast<std::uint64_t>(ms / 100);
+      if (life == 2 && m.number.sequence >= 500) break;  // it would have passed its old number
+      if (a.receive(m, at(ms)).verdict == verdict::accepted) heard_after = ms;
+    }
+    EXPECT_EQ(heard_after, 30'100) << life;
+  }
+}
+
 TEST_F(forgeries, a_claim_that_is_remembered_keeps_its_stamp) {
   auto a = in_play(1);
   a.receive(claim_by(8, 8), start);
@@ -139,6 +175,32 @@ TEST_F(forgeries, a_blind_robots_reason_is_true_of_what_it_believes) {
   auto const text = describe(d);
   EXPECT_EQ(text.find("nobody"), std::string::npos) << text;
   EXPECT_NE(text.find("believes what the others say"), std::string::npos) << text;
+}
+
+/// Robot 2 insists on attacking; robot 1 lets it defend and lets it idle in turn. No part is restored, so nothing is a cycle, but for the first message.
+TEST_F(forgeries, a_robot_that_insists_is_seen_although_no_cycle_is_completed) {
+  auto const one = rota::plan<soccer, view>::make(
+      {.plan = soccer::plan::normal,
+       .tasks = {{attack, {1, 1}, soccer::state::get_ball}, {defend, {0, 3}, soccer::state::protect}},
+       .utility = rota::additive_utility<soccer, view>([](soccer::agent x, soccer::task t, view const& v) {
+         if (t == attack) return x == agent(1) ? std::optional<double>(1) : std::nullopt;
+         return std::optional<double>(v.attack[0] > 0 ? 0.5 : -0.5);
+       })});
+  auto const type = *rota::plan_type<soccer, view>::make(play_id, {*one});
+  robot a(agent(1), squad(2), first_life);
+  a.enter(type, start);
+  int messages = 0;
+  for (bool detected = false; !detected && messages < 20;) {
+    ++messages;
+    view v;
+    v.attack.fill(messages % 2 == 0 ? 1 : -1);
+    a.receive(says(2, static_cast<std::uint64_t>(messages), attack), at(100 * messages));
+    auto const d = a.deliberate(type, members, v, at(100 * messages + 10), space);
+    EXPECT_EQ(d.cycles, messages == 1 ? 1u : 0u) << "only its joining is undone";
+    EXPECT_EQ(a.believes(play_id)->part(agent(2)).has_value(), messages % 2 == 0);
+    detected = d.detected == agent(2);
+  }
+  EXPECT_EQ(messages, 4);
 }
 
 /// Its followers obey until they hear of it, so they hear of it at once.
