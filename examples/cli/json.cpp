@@ -170,6 +170,14 @@ ordered_json json_of(sim::scenario what, bool resolution, sim::figures const& f)
   out["deliberations"] = f.deliberations;
   out["broadcasts"] = f.messages;
   out["perception_digest"] = std::to_string(f.perception_digest);
+  auto const& p = f.pursuit;
+  out["not_one_attacker_share"] = f.not_one_share();
+  out["wrong_attacker_share"] = f.wrong_share();
+  out["reactions"] = p.reactions.count();
+  out["reaction_ms"] = nullptr;
+  if (p.reactions.count() > 0)
+    out["reaction_ms"] = {{"mean", p.reactions.mean_ms()}, {"p95", p.reactions.percentile_ms(95)}};
+  out["missed_changes"] = p.missed;
   return out;
 }
 

@@ -33,6 +33,14 @@ std::string as_text(sim::playbook const& book, sim::play_options const& o, sim::
   line("detections", std::to_string(f.detections));
   line("reigns", std::to_string(f.reigns) + (f.reigns == 0 ? "" : ", led by " + leaders(f)));
   if (f.reigns > 0) line("  right attacker imposed", percent(f.right_share()));
+  auto const& reactions = f.pursuit.reactions;
+  line("not exactly one attacker", percent(f.not_one_share()));
+  line("a wrong attacker", percent(f.wrong_share()));
+  line("another is best",
+       counted(reactions.count() + f.pursuit.missed, "time") + ", missed " + std::to_string(f.pursuit.missed));
+  if (reactions.count() > 0)
+    line("  reaction, p95",
+         milliseconds_text(reactions.mean_ms()) + ", " + milliseconds_text(reactions.percentile_ms(95)));
   line("no episode above 4 s", f.resolved() ? "yes" : "no");
   return out;
 }

@@ -37,6 +37,15 @@ void expect_figures(json const& f, std::string const& name, std::string const& r
   EXPECT_EQ(f["right_share"].is_null(), f["reigns"] == 0) << "the share of none is no number";
   EXPECT_TRUE(f.contains("resolved") && f["resolved"].is_boolean());
   EXPECT_EQ(f["resolved"], f["episode_ms"]["max"] <= 4000);
+  for (auto const* key : {"not_one_attacker_share", "wrong_attacker_share"}) {
+    ASSERT_TRUE(f.contains(key) && f[key].is_number()) << key;
+    EXPECT_GE(f[key], 0) << key;
+    EXPECT_LE(f[key], 1) << key;
+  }
+  ASSERT_TRUE(f.contains("reactions") && f["reactions"].is_number_unsigned());
+  ASSERT_TRUE(f.contains("missed_changes") && f["missed_changes"].is_number_unsigned());
+  ASSERT_TRUE(f.contains("reaction_ms"));
+  EXPECT_EQ(f["reaction_ms"].is_null(), f["reactions"] == 0) << "the mean of none is no number";
 }
 
 TEST_F(rota_simulate, prints_the_json_of_the_documentation) {
@@ -72,7 +81,8 @@ TEST_F(rota_simulate, the_seed_alone_decides) {
 TEST_F(rota_simulate, prints_a_table_for_people) {
   auto const r = ball_fight({"--robots", "3", "--loss", "0.25"});
   EXPECT_EQ(r.status, 0) << r.complaint;
-  for (auto const* part : {"ball-fight: 3 robots play SoccerPlay", "loss 25.0 %", "time in conflict", "reigns"})
+  for (auto const* part : {"ball-fight: 3 robots play SoccerPlay", "loss 25.0 %", "time in conflict", "reigns",
+                           "not exactly one attacker", "a wrong attacker", "another is best"})
     EXPECT_NE(r.output.find(part), std::string::npos) << part << " not in:\n" << r.output;
 }
 

@@ -1,46 +1,17 @@
 #pragma once
 
 #include <rota/core/lifetime.hpp>
-#include <rota/search/best_allocation.hpp>
+#include <rota/sim/pursuit.hpp>
 #include <rota/sim/simulation.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace rota::sim {
-
-/// Lengths of episodes, exact to 0.1 ms.
-///
-/// Memory: disjoint intervals within a time T have at most √(2T) different lengths, so an hour needs at most 8,486 entries.
-class length_statistics {
-public:
-  void add(duration d) {
-    ++counts_[d.ns / unit];
-    ++total_;
-  }
-  [[nodiscard]] std::uint64_t count() const noexcept { return total_; }
-  /// The least length in ms that at least `percent` of all episodes do not exceed; 0 if there are none.
-  [[nodiscard]] double percentile_ms(std::uint64_t percent) const {
-    std::uint64_t const rank = (total_ * percent + 99) / 100;
-    std::uint64_t seen = 0;
-    for (auto const& [length, times] : counts_)
-      if ((seen += times) >= rank) return in_ms(length);
-    return 0;
-  }
-  [[nodiscard]] double longest_ms() const { return counts_.empty() ? 0 : in_ms(counts_.rbegin()->first); }
-
-private:
-  static constexpr std::int64_t unit = 100'000;
-  static double in_ms(std::int64_t tenths) { return static_cast<double>(tenths) / 10; }
-
-  std::map<std::int64_t, std::uint64_t> counts_;
-  std::uint64_t total_ = 0;
-};
 
 /// The figures of one run. `metrics` defines each of them.
 struct figures {
@@ -55,15 +26,21 @@ struct figures {
   std::uint64_t deliberations = 0;
   std::uint64_t messages = 0;  ///< broadcasts
   std::uint64_t perception_digest = 0;
+  pursuit_figures pursuit;
 
-  [[nodiscard]] double conflict_share() const {
-    return measured.ns == 0 ? 0 : static_cast<double>(in_conflict.ns) / static_cast<double>(measured.ns);
-  }
+  [[nodiscard]] double conflict_share() const { return share(in_conflict); }
+  [[nodiscard]] double not_one_share() const { return share(pursuit.not_one); }
+  [[nodiscard]] double wrong_share() const { return share(pursuit.wrong); }
   [[nodiscard]] double right_share() const {
     return reigns == 0 ? 0 : static_cast<double>(right) / static_cast<double>(reigns);
   }
   /// No episode was longer than 4 s.
   [[nodiscard]] bool resolved() const { return episodes.longest_ms() <= 4000; }
+
+private:
+  [[nodiscard]] double share(duration part) const {
+    return measured.ns == 0 ? 0 : static_cast<double>(part.ns) / static_cast<double>(measured.ns);
+  }
 };
 
 /// Counts while a simulation runs, from `begin` on.
@@ -76,6 +53,7 @@ struct figures {
 ///   run has not ended. So of several claims made at once only the greatest counts.
 /// * right: the leader imposes the attackers of the best allocation under the true world. This is judged at its first
 ///   deliberation as a leader; the deliberation that began the reign counts as one.
+/// * who pursues the ball: see `pursuit_watch`.
 template <class Simulation>
 class metrics {
 public:
@@ -87,7 +65,8 @@ public:
         begin_(begin),
         beliefs_(simulation.size()),
         absent_(simulation.size()),
-        reigns_(simulation.size()) {
+        reigns_(simulation.size()),
+        pursuit_(simulation.book(), simulation.members(), begin) {
     figures_.led.resize(simulation.size());
   }
 
@@ -95,6 +74,7 @@ public:
 
   void operator()(log_record const& r) {
     pass_to(r.time);
+    pursuit_(r);
     bool const comes = r.what == happening::entered;
     bool const goes = r.what == happening::left || r.what == happening::crashed;
     if (comes || goes) absent_[r.robot] = goes;
@@ -138,6 +118,7 @@ public:
       if (reigns_[i].began && end - *reigns_[i].began >= calm) count(i);
     figures_.measured = end - begin_;
     figures_.perception_digest = simulation_.perception_digest();
+    figures_.pursuit = pursuit_.finish(end);
     return figures_;
   }
 
@@ -188,17 +169,8 @@ private:
     figures_.right += *mine.right ? 1 : 0;
   }
 
-  [[nodiscard]] bool imposes_right(log_record const& r) {
-    know(r.truth, truth_);
-    auto const& book = simulation_.book();
-    auto const best = best_allocation(problem<names, perceived>(book.type, simulation_.members(), truth_), space_);
-    return best && attackers(r.believed) == attackers(best->atoms);
-  }
-  [[nodiscard]] small_vector<names::agent, 8> attackers(allocation_atoms<names> const& atoms) const {
-    small_vector<names::agent, 8> who;
-    for (in<names> const& x : atoms)
-      if (simulation_.book().attacks(x)) who.push_back(x.agent);
-    return who;
+  [[nodiscard]] bool imposes_right(log_record const& r) const {
+    return pursuit_.attackers(r.believed) == pursuit_.wanted();
   }
 
   Simulation const& simulation_;
@@ -212,8 +184,7 @@ private:
   instant agreed_{};
   std::vector<reign> reigns_;
   figures figures_;
-  perceived truth_;
-  workspace space_;
+  pursuit_watch pursuit_;
 };
 
 }  // namespace rota::sim
