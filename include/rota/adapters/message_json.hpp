@@ -41,7 +41,12 @@ template <class Id>
   }
 }
 
-/// Puts an object together. All values are numbers, lists and objects, so nothing is ever escaped.
+/// How a stance is written.
+[[nodiscard]] constexpr std::string_view word_of(stance s) noexcept {
+  return s == stance::abstains ? "abstains" : s == stance::dissents ? "dissents" : "none";
+}
+
+/// Puts an object together. Nothing is ever escaped.
 class json_writer {
 public:
   void open(std::string_view key, char bracket) {
@@ -57,6 +62,11 @@ public:
   void number(std::string_view key, Number x) {
     name(key);
     text_ += std::to_string(x);
+  }
+  /// @pre nothing in `text` needs to be escaped
+  void word(std::string_view key, std::string_view text) {
+    name(key);
+    ((text_ += '"') += text) += '"';
   }
   template <class Id>
   void id(std::string_view key, Id const& x) {
@@ -101,6 +111,7 @@ void write(json_writer& w, plan_message<V> const& m) {
       w.close('}');
     }
     if (p.fingerprint) w.number("fingerprint", *p.fingerprint);
+    if (p.stance != stance::none) w.word("stance", word_of(p.stance));
     w.close('}');
   }
   w.close(']');
@@ -115,6 +126,7 @@ void write(json_writer& w, claim<V> const& c) {
   w.number("incarnation", c.incarnation.value);
   w.number("number", c.number);
   w.number("version", c.version);
+  w.number("renewals", c.renewals);
   w.number("confidence", c.stamp.confidence);
   w.id("stamp", c.stamp.id);
   w.number("remaining_us", c.remaining.ns / 1000);
@@ -176,6 +188,13 @@ public:
     fail(at(place, key), shown(x) + ", not a whole number from 0 to " + std::to_string(most));
     return 0;
   }
+  rota::stance stance(node const& of, std::string const& place, std::string_view key) {
+    auto const& x = of[std::string(key)];
+    for (auto const s : {stance::abstains, stance::dissents})
+      if (x == word_of(s)) return s;
+    fail(at(place, key), shown(x) + ", neither \"abstains\" nor \"dissents\"");
+    return stance::none;
+  }
   template <class Id>
   Id id(node const& of, std::string const& place, std::string_view key) {
     constexpr auto most = wire_id<Id>::most;
@@ -217,7 +236,8 @@ void read(json_fields& f, nlohmann::json const& x, plan_message<V>& m) {
   for (std::size_t i = 0; types != nullptr && i < types->size(); ++i) {
     auto const place = f.at(f.at(here, "types"), i);
     auto const& entry = (*types)[i];
-    if (!f.object(entry, place, {{"type"}, {"leads"}, {"place", true}, {"fingerprint", true}})) return;
+    if (!f.object(entry, place, {{"type"}, {"leads"}, {"place", true}, {"fingerprint", true}, {"stance", true}}))
+      return;
     participation<V> p;
     p.type = f.id<typename V::plan_type>(entry, place, "type");
     p.leads = f.number(entry, place, "leads");
@@ -230,6 +250,7 @@ void read(json_fields& f, nlohmann::json const& x, plan_message<V>& m) {
     }
     if (entry.contains("fingerprint"))
       p.fingerprint = static_cast<std::uint32_t>(f.number(entry, place, "fingerprint", 0xffffffffU));
+    if (entry.contains("stance")) p.stance = f.stance(entry, place, "stance");
     m.types.push_back(p);
   }
 }
@@ -244,6 +265,7 @@ void read(json_fields& f, nlohmann::json const& x, claim<V>& c) {
                  {"incarnation"},
                  {"number"},
                  {"version"},
+                 {"renewals"},
                  {"confidence"},
                  {"stamp"},
                  {"remaining_us"},
@@ -255,6 +277,7 @@ void read(json_fields& f, nlohmann::json const& x, claim<V>& c) {
   c.incarnation.value = f.number(x, here, "incarnation");
   c.number = f.number(x, here, "number");
   c.version = f.number(x, here, "version");
+  c.renewals = static_cast<std::uint32_t>(f.number(x, here, "renewals", 0xffffffffU));
   c.stamp.confidence = static_cast<std::uint32_t>(f.number(x, here, "confidence", 0xffffffffU));
   c.stamp.id = f.id<typename V::agent>(x, here, "stamp");
   c.remaining = microseconds(static_cast<std::int64_t>(f.number(x, here, "remaining_us", longest / 1000)));

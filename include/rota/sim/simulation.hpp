@@ -255,6 +255,7 @@ private:
     } else {
       tell(observe, i, happening::deliberated, compose(d.deleted, d.event), more);
     }
+    if (d.reign_renewed) r.reign = r.mind.rule(book_.type.id())->current().number;  // the same reign goes on
     note_reign(i, observe, d.reign_began);
     speak(i, observe);
   }

@@ -74,9 +74,9 @@ public:
   /// Begins to lead with claim number `number`, which is first due at `due`. With `never` it is due once `revise` has
   /// named the allocation. @pre `!leading()`; numbers grow
   void lead(typename V::plan_type type, allocation_atoms<V> atoms, claim_stamp<V> mine, rota::incarnation incarnation,
-            std::uint64_t number, instant now, instant due, instant expiry) {
+            std::uint64_t number, instant now, instant due, instant expiry, std::uint32_t renewals = 0) {
     ROTA_ASSERT(!leading());
-    claim_ = {type, std::move(atoms), mine, mine.id, incarnation, number, 1};
+    claim_ = {type, std::move(atoms), mine, mine.id, incarnation, number, 1, renewals};
     phase_ = phase::leading;
     began_ = now;
     expiry_ = expiry;
@@ -84,17 +84,23 @@ public:
     said_ = false;
   }
 
-  /// Whether c has the identity of a claim that is remembered, and says something else: another stamp, or another allocation
-  /// in the same version. The stamp of a claim never changes, nor does a version, so such a message is a forgery or a fault.
+  /// Whether c has the identity of a claim that is remembered, and says something else: another stamp, another count
+  /// of renewals, or another allocation in the same version. None of them ever changes, so such a message is a forgery or a fault.
   [[nodiscard]] bool contradicts(claim<V> const& c) const {
     if (known const* const k = known_.find(c.leader); k && k->last == identity_of(c) && k->stamp != c.stamp)
       return true;
     if (!active() || !(claim_.leader == c.leader) || identity_of(claim_) != identity_of(c)) return false;
-    return claim_.stamp != c.stamp || (claim_.version == c.version && claim_.atoms != c.atoms);
+    return claim_.stamp != c.stamp || claim_.renewals != c.renewals ||
+           (claim_.version == c.version && claim_.atoms != c.atoms);
   }
   /// Whether the robot obeys a claim that this leader had not made when it had made `made` of them.
   [[nodiscard]] bool obeys_after(agent_id leader, rota::incarnation incarnation, std::uint64_t made) const {
     return obeying() && claim_.leader == leader && identity_of(claim_) > identity{incarnation, made};
+  }
+  /// Whether c renews the reign that the robot obeys.
+  [[nodiscard]] bool renews(claim<V> const& c) const {
+    return obeying() && claim_.leader == c.leader && identity_of(claim_) < identity_of(c) &&
+           claim_.renewals < c.renewals;
   }
   /// The last claim of this leader that was heard, if any is remembered.
   [[nodiscard]] std::optional<identity> last_heard(agent_id leader) const {
@@ -214,7 +220,8 @@ public:
   void digest_into(Digest& d) const {
     d(phase_);
     if (active()) {
-      d(claim_.leader, claim_.incarnation.value, claim_.number, claim_.version, claim_.stamp.confidence, expiry_);
+      d(claim_.leader, claim_.incarnation.value, claim_.number, claim_.version, claim_.renewals,
+        claim_.stamp.confidence, expiry_);
       for (auto const& x : claim_.atoms) d(x.agent, x.plan, x.task);
       if (obeying()) d.all(claim_.ages);
     }

@@ -82,6 +82,23 @@ public:
     return records_[*at].heard;
   }
 
+  /// What b has said about its place; of who takes no part, nothing.
+  [[nodiscard]] rota::stance stance(agent_id b) const {
+    auto const at = find(b);
+    return at ? records_[*at].stance : rota::stance::none;
+  }
+  /// Whether anybody has said so.
+  [[nodiscard]] bool anybody(rota::stance s) const noexcept {
+    return std::any_of(records_.begin(), records_.end(), [&](record const& r) { return r.stance == s; });
+  }
+  /// The participants but those who abstain, ascending; `self` is one of them if it takes part. O(n).
+  [[nodiscard]] small_vector<agent_id, 8> willing(agent_id self) const {
+    small_vector<agent_id, 8> all;
+    for (std::size_t i = 0; i < who_.size(); ++i)
+      if (who_[i] == self || records_[i].stance != rota::stance::abstains) all.push_back(who_[i]);
+    return all;
+  }
+
   /// b's atom, as b said last: nothing if it said that it has none, or that it takes no part.
   [[nodiscard]] std::optional<in<V>> said(agent_id b) const {
     auto const at = find(b);
@@ -105,15 +122,19 @@ public:
   void admit(agent_id b, instant heard) { admitted(b, heard); }
   /// Takes in what b says about itself: a sign of life, its part and its state. Looks b up once among the participants and
   /// once in the allocation. O(n).
-  part_change<V> hear(agent_id b, std::optional<placement<V>> const& said, instant now) {
+  part_change<V> hear(agent_id b, std::optional<placement<V>> const& said, instant now,
+                      rota::stance stands = rota::stance::none) {
     record& r = admitted(b, now);
+    r.stance = stands;
     if (said) r.state = said->state;
     r.said = atom_of(b, said);
     return place(b, r.said);
   }
   /// As `hear` while a leader rules: the part stays as it is, and the state counts only if b says that it has this part.
-  void hear_ruled(agent_id b, std::optional<placement<V>> const& said, instant now) {
+  void hear_ruled(agent_id b, std::optional<placement<V>> const& said, instant now,
+                  rota::stance stands = rota::stance::none) {
     record& r = admitted(b, now);
+    r.stance = stands;
     r.said = atom_of(b, said);
     if (said && part(b) == r.said) r.state = said->state;
   }
@@ -151,7 +172,7 @@ public:
     for (auto const& x : atoms_) d(x.agent, x.plan, x.task);
     d(atoms_.size()).all(who_);
     for (record const& r : records_) {
-      d(r.state, r.heard, r.said.has_value());
+      d(r.state, r.heard, r.stance, r.said.has_value());
       if (r.said) d(r.said->plan, r.said->task);
     }
   }
@@ -162,6 +183,7 @@ private:
     typename V::state state{};
     instant heard{};
     std::optional<in<V>> said{};
+    rota::stance stance = rota::stance::none;
     friend bool operator==(record const&, record const&) = default;
   };
 
@@ -184,7 +206,7 @@ private:
       return r;
     }
     who_.insert(where, b);
-    return *records_.insert(records_.begin() + at, {{}, now, {}});
+    return *records_.insert(records_.begin() + at, {{}, now, {}, {}});
   }
   /// Gives b this part in place of the one it has.
   part_change<V> place(agent_id b, std::optional<in<V>> const& atom) {

@@ -74,14 +74,17 @@ template <vocabulary V = runtime_vocabulary>
 struct [[nodiscard]] decision {
   typename V::plan_type type{};  ///< the plan type that was asked about
   decision_reason reason = decision_reason::not_executing;
-  std::optional<in<V>> own{};                   ///< what the robot itself has to do now
-  rota::event<in<V>> event;                     ///< e_r, what the robot changed in what it believed
-  rota::event<in<V>> deleted;                   ///< what the deletion of silent agents took away before
-  std::optional<reallocation<V>> search{};      ///< what was searched and found, and why; none if nothing was searched
+  std::optional<in<V>> own{};  ///< what the robot itself has to do now
+  rota::event<in<V>> event;    ///< e_r, what the robot changed in what it believed
+  rota::event<in<V>> deleted;  ///< what the deletion of silent agents took away before
+  /// What was searched and found, and why; none if nothing was searched. Who obeys adopts nothing of it.
+  std::optional<reallocation<V>> search{};
   std::optional<typename V::agent> leader{};    ///< who rules the plan type now: the robot itself, another, or nobody
   std::uint32_t cycles = 0;                     ///< cycles that this deliberation completed
   std::optional<typename V::agent> detected{};  ///< the sender of the n-th subsequent cycle, if the monitor fired
   bool reign_began = false;                     ///< the robot claims authority from now on
+  bool reign_renewed = false;                   ///< … and claims it anew, since others would do otherwise
+  bool dissents = false;                        ///< the robot obeys, and would do otherwise
   bool reign_ended = false;   ///< a reign has ended since the last deliberation, and no greater took its place
   duration clock_set_back{};  ///< by so much the robot's clock was set back since its last decision
   /// The plan types that the robot executes, ascending; filled only if the reason is `not_executing`.
@@ -95,6 +98,9 @@ struct robot_options {
   std::uint32_t yielding = 2;         ///< see `monitor_options`
   duration reign = seconds(2);        ///< how long a claim of this robot holds
   duration max_reign = seconds(2);    ///< claims with more time left are refused; the same for all, at least `reign`
+  /// A leader that hears dissent shortly before its reign ends renews it, so many times since the detection. With 0 nobody
+  /// renews, and who obeys does not search for what it would do otherwise: the paper's reign of fixed length. The same for all.
+  std::uint32_t renewals = 30;
   duration message_period = milliseconds(100);
   /// If positive, news is said this soon after the last message, and twice: the robot enters, leaves or leads, its
   /// reallocation changed anything, or (once) a message's fingerprint differs. `sparing` of team/budget.hpp sets it.

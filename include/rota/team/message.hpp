@@ -36,6 +36,13 @@ struct placement {
   friend auto operator<=>(placement const&, placement const&) = default;
 };
 
+/// What a sender has to say about its place in one plan type.
+enum class stance : unsigned char {
+  none,      ///< nothing
+  abstains,  ///< it knows no valid allocation, so it can judge no task: give it none, as long as others can take them all
+  dissents  ///< it obeys a leader, and would do otherwise by itself: without the reign the conflict would be back
+};
+
 /// What a sender does about one plan type. Without a place it takes part and has no task. That differs from not taking
 /// part: a sender that takes no part does not list the type at all.
 template <vocabulary V = runtime_vocabulary>
@@ -45,6 +52,7 @@ struct participation {
   std::uint64_t leads = 0;  ///< the number of the claim with which the sender leads this type; 0: it does not lead
   /// Of the allocation that the sender believes in, if it says so: see `belief::fingerprint`.
   std::optional<std::uint32_t> fingerprint{};
+  rota::stance stance = rota::stance::none;
 
   friend bool operator==(participation const&, participation const&) = default;
 };
@@ -78,7 +86,8 @@ struct claim_stamp {
 
 /// A leader's claim of authority over one plan type (section 4, the bully algorithm).
 ///
-/// (leader, incarnation, number) identifies a claim; the version counts how often its allocation has changed. The leader
+/// (leader, incarnation, number) identifies a claim; the version counts how often its allocation has changed. A leader that
+/// hears dissent renews its reign by a new claim; `renewals` counts them since the detection that all of it follows from. The leader
 /// wants agents that take part and have no atom to be idle. Robots share no clock, so a claim carries the time that its
 /// reign has left. The leader passes on when it last heard whom the claim is about, since a claim is a sign of life of its
 /// leader only.
@@ -91,6 +100,7 @@ struct claim {
   rota::incarnation incarnation{};
   std::uint64_t number = 0;
   std::uint64_t version = 0;
+  std::uint32_t renewals = 0;  ///< an answer has as many as the claim that it answers
   duration remaining{};
   small_vector<duration, 8> ages{};  ///< of each atom's agent, the time since its last sign of life; 0 for the leader
 

@@ -114,6 +114,14 @@ namespace rota {
   return out;
 }
 
+[[nodiscard]] inline std::string to_string(stance s) {
+  switch (s) {
+  case stance::none: return "has nothing to say";
+  case stance::abstains: return "abstains";
+  case stance::dissents: return "dissents";
+  }
+  return "?";
+}
 /// Its number.
 [[nodiscard]] inline std::string to_string(incarnation i) { return std::to_string(i.value); }
 /// `incarnation:sequence`.
@@ -130,10 +138,11 @@ template <vocabulary V, class Names = default_names>
 [[nodiscard]] std::string to_string(placement<V> const& p, Names const& name = {}) {
   return '(' + name(p.plan) + ", " + name(p.task) + ", " + name(p.state) + ")";
 }
-/// `pt: (p, t, z)`, or `pt: no task`.
+/// `pt: (p, t, z)`, or `pt: no task`, and its stance if it has one: `pt: no task, abstains`.
 template <vocabulary V, class Names = default_names>
 [[nodiscard]] std::string to_string(participation<V> const& p, Names const& name = {}) {
-  return name(p.type) + ": " + (p.place ? to_string(*p.place, name) : "no task");
+  return name(p.type) + ": " + (p.place ? to_string(*p.place, name) : "no task") +
+         (p.stance != stance::none ? ", " + to_string(p.stance) : "");
 }
 /// `agent a, message 1:7: pt: (p, t, z), pt: no task`.
 template <vocabulary V, class Names = default_names>
@@ -212,20 +221,25 @@ template <vocabulary V, class Names = default_names>
   if (d.reason == decision_reason::not_executing)
     return "plan type " + name(d.type) + " is not executed: " +
            (d.executed.empty() ? "no plan type was entered" : "entered were " + detail::listing(d.executed, name));
-  bool const leads = d.search.has_value() && d.leader.has_value();
-  std::string out = d.search ? describe(*d.search, name) : to_string(d.reason);
+  bool const obeys = d.reason == decision_reason::obeyed;
+  bool const leads = !obeys && d.leader.has_value();
+  std::string out = d.search && !obeys ? describe(*d.search, name) : to_string(d.reason);
   if (d.search && d.reason == decision_reason::no_valid_allocation)
     out = (d.search->proved ? "no allocation is valid" : "no valid allocation was found") +
           detail::reasons(d.search->refusals, d.search->ignored, d.search->lie, name) +
           "; the robot believes what the others say";
-  if (!d.search && d.leader) out += ": agent " + name(*d.leader);
+  if (obeys && d.leader) out += ": agent " + name(*d.leader);
   out += d.own ? "; own task: " + to_string(*d.own, name) : std::string("; no task of its own");
+  if (d.dissents) out += "; by itself it would take " + to_string(d.search->atoms, name);
   if (!d.deleted.empty()) out += "; silent agents were deleted: " + to_string(d.deleted, name);
   if (d.reign_ended) out += "; a reign has ended";
   if (d.clock_set_back > duration{}) out += "; the clock was set back by " + to_string(d.clock_set_back);
   if (d.cycles > 0) out += "; cycles completed: " + std::to_string(d.cycles);
   if (d.detected) out += "; a loop with agent " + name(*d.detected) + " was detected";
-  if (leads) out += d.reign_began ? "; the robot claims authority" : "; the robot leads";
+  if (leads)
+    out += d.reign_began     ? "; the robot claims authority"
+           : d.reign_renewed ? "; the robot renews its reign, since others would do otherwise"
+                             : "; the robot leads";
   return out;
 }
 

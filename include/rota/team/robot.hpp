@@ -80,7 +80,7 @@ public:
     if (!t) return false;
     t->executing = false;
     t->lapsed = false;
-    t->blind = false;
+    t->stance = stance::none;
     t->believed = {};
     t->monitor.clear();
     t->rule.release();
@@ -149,10 +149,10 @@ public:
         if (t.rule.obeys_after(m.sender, m.number.incarnation, m.claims)) continue;  // said before it took part
         change = t.dismiss(m.sender);
       } else if (t.rule.active()) {
-        t.believed.hear_ruled(m.sender, said->place, now);
+        t.believed.hear_ruled(m.sender, said->place, now, said->stance);
         continue;
       } else {
-        change = t.believed.hear(m.sender, said->place, now);
+        change = t.believed.hear(m.sender, said->place, now, said->stance);
       }
       if (!t.rule.active()) t.monitor.on_message(change, now);
       if (!change.empty()) {
@@ -181,9 +181,10 @@ public:
     t.expire(now);
     reception<V> r;
     bool const was_active = t.rule.active();
+    if (t.rule.renews(c)) t.thaw();
     auto const stamp =
         t.stamp_at(options_.confidence, self_, now);  // before it is frozen, also if it does not answer now
-    auto const mine = t.blind ? std::nullopt : std::optional{stamp};
+    auto const mine = t.blind() ? std::nullopt : std::optional{stamp};
     auto const heard = t.rule.hear(c, mine, now, options_.max_delay);
     r.claim = heard.outcome;
     if (heard.outcome == claim_outcome::expired) {
@@ -195,7 +196,7 @@ public:
       (void)t.admit_all(c, now, options_.silence, options_.max_delay + heard.late);
       // No longer than the claim that it answers: all authority that follows from one detection ends together. What others
       // have said since the last deliberation may mix plans, and nobody has judged it: then the next one says the answer.
-      lead(t, now, t.judged ? now : never, now + (std::min)(options_.reign, c.remaining));
+      lead(t, c.renewals, now, t.judged ? now : never, now + (std::min)(options_.reign, c.remaining));
     } else if (t.rule.obeying() && heard.outcome != claim_outcome::outranked) {
       if (!was_active) t.monitor.clear();
       r.relay = heard.fresh;
@@ -230,24 +231,24 @@ public:
     t->expire(now);
     d.reign_ended = std::exchange(t->lapsed, false);
     d.deleted = t->delete_silent(self_, now, options_.silence);
-    if (t->rule.obeying()) {
-      d.reason = decision_reason::obeyed;
-    } else {
-      auto const here = t->rule.leading() ? t->believed.atoms() : t->believed.told(self_);
-      problem<V, Beliefs> p{pt, members, beliefs, t->believed.participants(), idle};
-      p.current = here.atoms();
-      p.change_cost = options_.change_cost;
-      auto& next = d.search.emplace(reallocate(p, options_.hysteresis, space, budget));
+    bool const obeys = t->rule.obeying();
+    if (obeys) d.reason = decision_reason::obeyed;
+    if (!obeys || options_.renewals > 0) {
+      auto const here = t->rule.active() ? t->believed.atoms() : t->believed.told(self_);
+      auto& next = d.search.emplace(searched(*t, pt, members, beliefs, here, space, budget, idle));
       ROTA_ASSERT(t->knows(next.atoms));  // or else another plan type was entered under this id
-      t->blind = !next.plan;
-      auto const adopted = t->blind ? others(here) : next.atoms;
-      d.event = difference(t->believed.atoms(), adopted);
-      t->adopt(adopted, d.event);
-      d.reason = t->blind          ? decision_reason::no_valid_allocation
-                 : d.event.empty() ? decision_reason::kept
-                                   : decision_reason::reallocated;
-      t->judged = !t->blind;
-      conclude(*t, d, now);
+      t->stance = !next.plan ? stance::abstains : obeys && !(next.atoms == here) ? stance::dissents : stance::none;
+      d.dissents = t->stance == stance::dissents;
+      if (!obeys) {
+        auto const adopted = t->blind() ? others(here) : next.atoms;
+        d.event = difference(t->believed.atoms(), adopted);
+        t->adopt(adopted, d.event);
+        d.reason = t->blind()        ? decision_reason::no_valid_allocation
+                   : d.event.empty() ? decision_reason::kept
+                                     : decision_reason::reallocated;
+        t->judged = !t->blind();
+        conclude(*t, d, now);
+      }
     }
     d.own = t->believed.part(self_);
     if (!d.event.empty() && !t->rule.active()) timetable_.note_news();
@@ -334,17 +335,40 @@ private:
     return r;
   }
 
-  void lead(track& t, instant now, instant due, instant expiry) {
+  /// Reallocates among those who do not abstain; if nothing valid is found, then among all. So robots that abstain do not make
+  /// others abstain.
+  template <class Beliefs>
+  reallocation<V> searched(track const& t, plan_type<V, Beliefs> const& pt, team<V> const& members,
+                           Beliefs const& beliefs, allocation_atoms<V> const& here, workspace& space,
+                           search_budget const& budget, idling idle) const {
+    problem<V, Beliefs> p{pt, members, beliefs, t.believed.participants(), idle};
+    p.change_cost = options_.change_cost;
+    if (t.believed.anybody(stance::abstains)) {
+      auto const willing = t.believed.willing(self_);
+      auto rest = here;
+      for (in<V> const& x : here)
+        if (!std::binary_search(willing.begin(), willing.end(), x.agent)) rest.erase(x);
+      p.participants = {willing.begin(), willing.size()};
+      p.current = rest.atoms();
+      auto found = reallocate(p, options_.hysteresis, space, budget);
+      if (found.plan) return found;
+      p.participants = t.believed.participants();
+    }
+    p.current = here.atoms();
+    return reallocate(p, options_.hysteresis, space, budget);
+  }
+
+  void lead(track& t, std::uint32_t renewals, instant now, instant due, instant expiry) {
     t.monitor.clear();
     auto const stamp = t.stamp_at(options_.confidence, self_, now);
     t.freeze(expiry);
-    t.rule.lead(t.names.type(), t.believed.atoms(), stamp, incarnation_, ++claims_, now, due, expiry);
+    t.rule.lead(t.names.type(), t.believed.atoms(), stamp, incarnation_, ++claims_, now, due, expiry, renewals);
     timetable_.note_news();
   }
   /// What follows from a search: a leader says it; everybody else looks for a loop, and claims if there is one. Who sees
   /// nothing valid does neither.
   void conclude(track& t, decision<V>& d, instant now) {
-    if (t.blind) {
+    if (t.blind()) {
       if (t.rule.leading()) {
         t.rule.release();
         t.normalise();
@@ -355,6 +379,7 @@ private:
     }
     if (t.rule.leading()) {
       t.rule.revise(t.believed.atoms(), now);
+      d.reign_renewed = renew(t, now);
       return;
     }
     auto const v = t.monitor.on_deliberation(d.event, t.believed.atoms(), now);
@@ -363,8 +388,20 @@ private:
     if (!v.detected || !options_.resolution) return;
     // Beside a greater leader that is still heard, though its claim has ended by this clock, there shall be no second one.
     if (now < t.rule.heard_late(t.stamp_at(options_.confidence, self_, now)) + 2 * options_.claim_period) return;
-    lead(t, now, now, now + options_.reign);
+    lead(t, 0, now, now, now + options_.reign);
     d.reign_began = true;
+  }
+  /// A leader whose claim ends soon claims anew if it was told that others would do otherwise. It says so early enough for
+  /// everybody to hear of it before the claim ends; who leads is open again, so the stamp is computed anew.
+  bool renew(track& t, instant now) {
+    duration const left = t.rule.expiry() - now;
+    std::uint32_t const before = t.rule.current().renewals;
+    if (left > (std::min)(options_.max_delay, duration{options_.reign.ns / 2})) return false;
+    if (before >= options_.renewals || !t.believed.anybody(stance::dissents)) return false;
+    t.rule.release();
+    t.thaw();
+    lead(t, before + 1, now, now, now + options_.reign);
+    return true;
   }
 
   plan_message<V> snapshot() {
@@ -376,6 +413,7 @@ private:
       if (auto const own = t.believed.part(self_))
         p.place = placement<V>{own->plan, own->task, *t.believed.state(self_)};
       if (t.rule.leading()) p.leads = t.rule.current().number;
+      if (t.blind() || t.rule.obeying()) p.stance = t.stance;
       if (options_.fingerprints && encodable_atom<in<V>>) p.fingerprint = t.fingerprint();
       m.types.push_back(p);
     }

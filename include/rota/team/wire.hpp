@@ -19,7 +19,7 @@
 namespace rota {
 
 /// The version of the form. A receiver refuses every other one whole.
-inline constexpr std::uint8_t wire_version = 1;
+inline constexpr std::uint8_t wire_version = 2;
 
 /// No claim has more: so a receiver's buffers and time are bounded whatever arrives.
 inline constexpr std::size_t most_wire_atoms = 256;
@@ -81,7 +81,7 @@ namespace detail {
 
 inline constexpr std::uint8_t wire_mark = 0xa0;  // the upper half of the first byte; the lower: version·2 + kind
 inline constexpr std::uint8_t wire_claim = 1;    // kind; a plan message is 0
-enum wire_flag : std::uint8_t { has_place = 1, has_fingerprint = 2 };
+enum wire_flag : std::uint8_t { has_place = 1, has_fingerprint = 2, abstains = 4, dissents = 8 };
 
 template <class Id>
 constexpr void write(byte_writer& w, Id const& id) noexcept {
@@ -90,6 +90,13 @@ constexpr void write(byte_writer& w, Id const& id) noexcept {
 template <class Id>
 [[nodiscard]] constexpr Id read(byte_reader& r) noexcept {
   return wire_id<Id>::from(r.number(wire_id<Id>::most));
+}
+
+template <vocabulary V>
+[[nodiscard]] constexpr std::uint8_t flags_of(participation<V> const& p) noexcept {
+  return static_cast<std::uint8_t>((p.place ? has_place : 0) | (p.fingerprint ? has_fingerprint : 0) |
+                                   (p.stance == stance::abstains ? abstains : 0) |
+                                   (p.stance == stance::dissents ? dissents : 0));
 }
 
 template <vocabulary V>
@@ -135,8 +142,7 @@ template <vocabulary V>
   w.number(m.types.size());
   for (participation<V> const& p : m.types) {
     detail::write(w, p.type);
-    w.byte(
-        static_cast<std::uint8_t>((p.place ? detail::has_place : 0) | (p.fingerprint ? detail::has_fingerprint : 0)));
+    w.byte(detail::flags_of(p));
     w.number(p.leads);
     if (p.place) {
       detail::write(w, p.place->plan);
@@ -160,6 +166,7 @@ template <vocabulary V>
   w.number(c.incarnation.value);
   w.number(c.number);
   w.number(c.version);
+  w.number(c.renewals);
   w.number(c.stamp.confidence);
   detail::write(w, c.stamp.id);
   w.number(static_cast<std::uint64_t>(c.remaining.ns / 1000));
@@ -196,7 +203,11 @@ void read(byte_reader& r, plan_message<V>& m) {
     participation<V> p;
     p.type = read<typename V::plan_type>(r);
     auto const flags = r.byte();
-    if ((flags & ~(has_place | has_fingerprint)) != 0) r.fail(byte_reader::fault::not_canonical);
+    if ((flags & ~(has_place | has_fingerprint | abstains | dissents)) != 0 ||
+        (flags & (abstains | dissents)) == (abstains | dissents))
+      r.fail(byte_reader::fault::not_canonical);
+    if ((flags & abstains) != 0) p.stance = stance::abstains;
+    if ((flags & dissents) != 0) p.stance = stance::dissents;
     p.leads = r.number();
     if ((flags & has_place) != 0) {
       placement<V> place;
@@ -218,6 +229,7 @@ void read(byte_reader& r, claim<V>& c, small_vector<in<V>, 8>& atoms) {
   c.incarnation.value = r.number();
   c.number = r.number();
   c.version = r.number();
+  c.renewals = static_cast<std::uint32_t>(r.number((std::numeric_limits<std::uint32_t>::max)()));
   c.stamp.confidence = static_cast<std::uint32_t>(r.number((std::numeric_limits<std::uint32_t>::max)()));
   c.stamp.id = read<typename V::agent>(r);
   c.remaining = microseconds(static_cast<std::int64_t>(r.number(longest / 1000)));

@@ -25,7 +25,10 @@ struct track {
   bool executing = false;
   bool judged = false;  // the last deliberation chose what is believed, and nothing has changed it since
   bool lapsed = false;  // a reign has ended since the last deliberation
-  bool blind = false;   // the last deliberation found no valid allocation: it neither counts cycles, claims nor answers
+  rota::stance stance = rota::stance::none;  // what the last deliberation came to
+
+  /// Whether the last deliberation found no valid allocation: then it neither counts cycles, claims nor answers.
+  [[nodiscard]] bool blind() const noexcept { return stance == rota::stance::abstains; }
 
   /// Ends a reign whose time is over.
   void expire(instant now) {
@@ -102,6 +105,8 @@ struct track {
     if (now >= frozen_until) stamp = {confidence, self};
     return stamp;
   }
+  /// A reign is renewed: who leads from now on is decided anew.
+  void thaw() { frozen_until = long_ago; }
   void freeze(instant until) { frozen_until = (std::max)(frozen_until, until); }
   /// Time since b was last heard; just over `silence` if b has left or was deleted since the leader deliberated.
   [[nodiscard]] duration age_of(agent_id b, agent_id self, instant now, duration silence) const {
@@ -127,7 +132,7 @@ struct track {
 
   template <class Digest>
   void digest_into(Digest& d) const {
-    d(names.type(), believed, monitor, rule, stamp.confidence, executing, judged, lapsed, blind).until(frozen_until);
+    d(names.type(), believed, monitor, rule, stamp.confidence, executing, judged, lapsed, stance).until(frozen_until);
   }
   friend bool operator==(track const&, track const&) = default;
 };
