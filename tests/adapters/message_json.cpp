@@ -46,6 +46,7 @@ plan_message a_plan_message() {
   m.types.push_back(p);
   p = {};
   p.type = names::plan_type(5);
+  p.stance = rota::stance::abstains;
   m.types.push_back(p);
   return m;
 }
@@ -60,15 +61,16 @@ claim a_claim() {
   c.number = 2;
   c.version = 3;
   c.remaining = rota::milliseconds(1970);
+  c.renewals = 1;
   return c;
 }
 
 constexpr auto plan_text =
-    R"({"rota": 1, "plan_message": {"sender": 7, "incarnation": 1796000000, "sequence": 1000, "claims": 2, "types": )"
+    R"({"rota": 2, "plan_message": {"sender": 7, "incarnation": 1796000000, "sequence": 1000, "claims": 2, "types": )"
     R"([{"type": -1, "leads": 2, "place": {"plan": -3, "task": 4, "state": 2}, "fingerprint": 305419896}, )"
-    R"({"type": 5, "leads": 0}]}})";
+    R"({"type": 5, "leads": 0, "stance": "abstains"}]}})";
 constexpr auto claim_text =
-    R"({"rota": 1, "claim": {"type": -1, "leader": 9, "incarnation": 1796000000, "number": 2, "version": 3, )"
+    R"({"rota": 2, "claim": {"type": -1, "leader": 9, "incarnation": 1796000000, "number": 2, "version": 3, "renewals": 1, )"
     R"("confidence": 5, "stamp": 9, "remaining_us": 1970000, "plan": -3, "atoms": [{"agent": 1, "task": 4, "age_ms": 17}, )"
     R"({"agent": 9, "task": 18446744073709551615, "age_ms": 0}]}})";
 
@@ -195,12 +197,12 @@ TEST(message_json, exactly_its_keys_belong_in_an_object) {
   expect(plan_text, R"("leads": 0)", R"("leads": 0, "Place": 1)",
          {"/plan_message/types/1", "the key \"Place\" is unknown here"});
   expect(plan_text, R"("rota": 1, )", "", {"/", "the key \"rota\" is missing"});
-  expect(plan_text, R"("rota": 1)", R"("rota": 2)", {"/rota", "another version of the form"});
+  expect(plan_text, R"("rota": 2)", R"("rota": 1)", {"/rota", "another version of the form"});
   expect(plan_text, R"("plan_message")", R"("plan")", {"/", "the key \"plan\" is unknown here"});
-  EXPECT_EQ(fault(R"({"rota": 1})"), (json_fault{"/", "neither one plan message nor one claim"}));
-  EXPECT_EQ(fault(R"({"rota": 1, "claim": {}, "plan_message": {}})").reason, "neither one plan message nor one claim");
+  EXPECT_EQ(fault(R"({"rota": 2})"), (json_fault{"/", "neither one plan message nor one claim"}));
+  EXPECT_EQ(fault(R"({"rota": 2, "claim": {}, "plan_message": {}})").reason, "neither one plan message nor one claim");
   EXPECT_EQ(fault("[]"), (json_fault{"/", "a list, not an object"}));
-  EXPECT_EQ(fault(R"({"rota": 1, "claim": 7})"), (json_fault{"/claim", "7, not an object"}));
+  EXPECT_EQ(fault(R"({"rota": 2, "claim": 7})"), (json_fault{"/claim", "7, not an object"}));
 }
 
 TEST(message_json, atoms_ascend) {
@@ -226,7 +228,7 @@ TEST(message_json, hostile_texts_are_refused_with_a_place) {
   EXPECT_EQ(lines.find_first_of(std::string("\n\0", 2)), std::string::npos) << lines;
   EXPECT_EQ(fault(std::string(rota::most_json_bytes + 1, ' ')), (json_fault{"/", "longer than 131072 bytes"}));
   std::string many =
-      R"({"rota": 1, "plan_message": {"sender": 7, "incarnation": 1, "sequence": 1, "claims": 0, "types": [)";
+      R"({"rota": 2, "plan_message": {"sender": 7, "incarnation": 1, "sequence": 1, "claims": 0, "types": [)";
   for (int i = 0; i < 65; ++i) many += std::string(i == 0 ? "" : ", ") + R"({"type": 1, "leads": 0})";
   EXPECT_EQ(fault(many + "]}}"), (json_fault{"/plan_message/types", "more than 64 entries"}));
   std::string zeros = R"({"rota": [0)";

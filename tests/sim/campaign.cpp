@@ -38,7 +38,7 @@ TEST(campaign, no_promise_is_broken_whatever_goes_wrong) {
   for (auto const outcome : {claim_outcome::adopted, claim_outcome::revised, claim_outcome::repeated,
                              claim_outcome::expired, claim_outcome::outranked, claim_outcome::challenged})
     EXPECT_GT(s.claims[static_cast<std::size_t>(outcome)], 20U) << static_cast<int>(outcome);
-  for (auto const n : {s.detections, s.reigns, s.answers, s.given_way, s.stale, s.refused, s.deletions})
+  for (auto const n : {s.detections, s.reigns, s.renewals, s.answers, s.given_way, s.stale, s.refused, s.deletions})
     EXPECT_GT(n, 20U);
   for (auto const n : {s.crashes, s.restarts, s.absences}) EXPECT_GT(n, 0U);
   RecordProperty("ticks", std::to_string(s.ticks));

@@ -107,6 +107,7 @@ TEST(simulation, keeps_loops_and_the_message_grid) {
 TEST(simulation, reigns_end_and_the_greatest_stamp_leads) {
   auto options = brief(scenario::ball_fight, true);
   options.length = seconds(30);
+  options.team.robot.renewals = 0;
   std::optional<instant> began[5];
   int ended = 0;
   (void)play(soccer(), options, [&](log_record const& r) {

@@ -294,6 +294,7 @@ TEST_F(sim_faults, an_absent_robot_is_dropped_and_comes_back) {
 TEST_F(sim_faults, confidences_decide_who_leads) {
   world.delusions = milliseconds(300);
   options.faults.confidences = {{0, at(500), 7}};
+  options.robot.renewals = 0;
   int led_by_first = 0, led_by_others = 0;
   play(20'000, [&](team const&, log_record const& r) {
     if (r.what != happening::reign_ended || r.superseded || r.time < at(3000)) return;

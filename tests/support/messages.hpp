@@ -35,6 +35,7 @@ rc::Gen<rota::message<V>> any_message() {
           p.place =
               rota::placement<V>{any_id<typename V::plan>(), any_id<typename V::task>(), any_id<typename V::state>()};
         if (*rc::gen::arbitrary<bool>()) p.fingerprint = static_cast<std::uint32_t>(*any_number());
+        p.stance = static_cast<rota::stance>(*rc::gen::inRange(0, 3));
         m.types.push_back(p);
       }
       return rota::message<V>{m};
@@ -51,6 +52,7 @@ rc::Gen<rota::message<V>> any_message() {
     c.incarnation = {*any_number()};
     c.number = *any_number();
     c.version = *any_number();
+    c.renewals = static_cast<std::uint32_t>(*any_number());
     c.remaining = rota::microseconds(static_cast<std::int64_t>(*any_number() >> 12));
     return rota::message<V>{c};
   });

@@ -334,7 +334,7 @@ TEST_F(corners, bytes_of_too_many_types_or_of_a_reign_without_end_are_refused) {
   };
   for (std::uint64_t const types : {std::uint64_t{64}, std::uint64_t{65}}) {
     auto const m = decoded([&](auto& w) {
-      w.byte(0xa2);
+      w.byte(0xa4);
       for (std::uint64_t const x : {std::uint64_t{1}, std::uint64_t{1}, std::uint64_t{1}, std::uint64_t{0}, types})
         w.number(x);
       for (std::uint64_t k = 0; k < types; ++k) w.number(k), w.byte(0), w.number(0);
@@ -343,8 +343,8 @@ TEST_F(corners, bytes_of_too_many_types_or_of_a_reign_without_end_are_refused) {
   }
   for (std::uint64_t const us : {std::uint64_t{2'000'000}, std::uint64_t{1} << 62}) {
     auto const m = decoded([&](auto& w) {
-      w.byte(0xa3);
-      for (int k = 0; k < 7; ++k) w.number(1);
+      w.byte(0xa5);
+      for (int k = 0; k < 8; ++k) w.number(1);
       w.number(us);
       w.number(0);
     });

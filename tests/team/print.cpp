@@ -149,7 +149,9 @@ TEST_F(print, a_decision_says_who_leads_and_since_when_it_obeys) {
   auto d = think(a, sees(2));
   EXPECT_EQ(d.leader, agent(9));
   EXPECT_EQ(describe(*a.rule(play_id), shirts{}), "obeys agent #9 until 2 s");
-  EXPECT_EQ(describe(d, shirts{}), "a leader decides: agent #9; own task: In(#1, normal, attack)");
+  EXPECT_EQ(describe(d, shirts{}),
+            "a leader decides: agent #9; own task: In(#1, normal, attack); by itself it would take "
+            "{In(#1, normal, attack), In(#9, normal, defend)}");
   d = think(a, sees(1), start + rota::seconds(2));
   EXPECT_TRUE(tells(describe(d, shirts{}), {"a reign has ended"}));
   EXPECT_FALSE(d.leader);

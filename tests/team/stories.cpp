@@ -36,6 +36,9 @@ TEST_F(stories, a_robot_joins_under_authority) { play_it(); }
 TEST_F(stories, a_lost_claim_is_repeated) { play_it(); }
 TEST_F(stories, a_late_duplicate) { play_it(); }
 TEST_F(stories, a_blind_robot_abstains) { play_it(); }
+TEST_F(stories, a_robot_that_abstains_is_needed) { play_it(); }
+TEST_F(stories, a_reign_lasts_as_long_as_its_cause) { play_it(); }
+TEST_F(stories, a_renewal_is_a_new_election) { play_it(); }
 TEST_F(stories, a_partition_heals) { play_it(); }
 TEST_F(stories, a_relay_on_a_line) { play_it(); }
 TEST_F(stories, a_clock_is_set_back) { play_it(); }

@@ -62,15 +62,28 @@ claim a_claim() {
   for (int n = 1; n <= 6; ++n) c.ages.push_back(milliseconds(17 * n));
   c.remaining = milliseconds(1970);
   c.version = 3;
+  c.renewals = 1;
   return c;
 }
 
-/// Golden bytes: version 1 of the form, on every machine, for ever.
+/// Golden bytes: version 2 of the form, on every machine, for ever.
 TEST(wire, says_the_same_on_every_machine) {
-  EXPECT_EQ(hex(encoded(a_plan_message())), "a2 07 80 92 b3 d8 06 e8 07 02 01 00 01 02 00 00 02 b0 06 90 4b");
+  EXPECT_EQ(hex(encoded(a_plan_message())), "a4 07 80 92 b3 d8 06 e8 07 02 01 00 01 02 00 00 02 b8 b1 a4 ec");
   EXPECT_EQ(hex(encoded(a_claim())),
-            "a3 00 09 80 92 b3 d8 06 02 03 00 09 d0 9e 78 06 00 01 00 11 02 01 22 03 01 33 04 01 44 05 01 55 "
-            "06 01 66 b5 f1 08 aa");
+            "a5 00 09 80 92 b3 d8 06 02 03 01 00 09 d0 9e 78 06 00 01 00 11 02 01 22 03 01 33 04 01 44 05 01 55 "
+            "06 01 66 61 5f a9 13");
+}
+
+wire_fault reason(bytes const& b) { return rota::decode<soccer>(b).error(); }
+
+TEST(wire, says_where_its_sender_stands) {
+  auto m = a_plan_message();
+  m.types[0].stance = rota::stance::dissents;
+  EXPECT_EQ(hex(encoded(m)), "a4 07 80 92 b3 d8 06 e8 07 02 01 00 09 02 00 00 02 79 fa d4 dc");
+  m.types[0] = {soccer::plan_type::play, std::nullopt, 0, std::nullopt, rota::stance::abstains};
+  EXPECT_EQ(hex(encoded(m)), "a4 07 80 92 b3 d8 06 e8 07 02 01 00 04 00 9e b3 e4 9d");
+  EXPECT_EQ(reason(from("a4 07 80 92 b3 d8 06 e8 07 02 01 00 0c 00 96 39 3d 55")), wire_fault::not_canonical)
+      << "nobody does both";
 }
 
 TEST(wire, is_short) {
@@ -160,10 +173,9 @@ TEST(wire, a_message_that_lost_its_end_or_got_a_longer_one_is_refused) {
 }
 
 TEST(wire, what_is_not_ours_says_so) {
-  auto const reason = [](bytes const& b) { return rota::decode<soccer>(b).error(); };
   EXPECT_EQ(reason({}), wire_fault::cut_short);
   EXPECT_EQ(reason(from("47 45 54 20 2f")), wire_fault::foreign);
-  EXPECT_EQ(reason(from("a4 07 80 9a b4 d8 06 e8")), wire_fault::version);
+  EXPECT_EQ(reason(from("a2 07 80 9a b4 d8 06 e8")), wire_fault::version);
   auto many = a_plan_message();
   for (int i = 0; i < 64; ++i) many.types.push_back(many.types[0]);
   std::array<std::byte, 8192> buffer{};

@@ -89,6 +89,7 @@ private:
     o.message_period = one_of({milliseconds(50), milliseconds(100), milliseconds(100), milliseconds(250)});
     if (coin(0.2)) o = sparing(one_of({milliseconds(100), milliseconds(200)}), o);
     run_.team.sensor = exact_sensor();
+    o.renewals = one_of({0U, 0U, 2U, 30U});
     calm_ = begin_ + between(seconds(4), seconds(10));
     run_.world = {between(milliseconds(200), seconds(4)), between(milliseconds(500), seconds(4)), calm_};
   }

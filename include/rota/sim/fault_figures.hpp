@@ -155,7 +155,9 @@ public:
     f.loss = loss;
     std::vector<duration> lengths;
     f.two_leaders_ms = longest([&](std::uint64_t seed, random_engine& engine) {
-      simulation<restless_world> team(book_, quarrel(seed, engine), options(seed, loss));
+      auto o = options(seed, loss);
+      o.robot.renewals = 0;  // a reign of fixed length, so that there are many
+      simulation<restless_world> team(book_, quarrel(seed, engine), o);
       std::optional<instant> began, two;
       bool settled = false;
       duration both{};

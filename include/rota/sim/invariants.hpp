@@ -28,13 +28,14 @@ struct violation {
 struct sightings {
   std::uint64_t ticks = 0;    ///< deliberations of one robot
   std::uint64_t records = 0;  ///< … and everything else that was said, heard or changed
-  std::uint64_t detections = 0, reigns = 0, answers = 0, given_way = 0;
+  std::uint64_t detections = 0, reigns = 0, renewals = 0, answers = 0, given_way = 0;
   std::array<std::uint64_t, 6> claims{};  ///< heard, by outcome
   std::uint64_t stale = 0, refused = 0;   ///< messages
   std::uint64_t deletions = 0, crashes = 0, restarts = 0, absences = 0;
 
   void add(sightings const& s) {
-    ticks += s.ticks, records += s.records, detections += s.detections, reigns += s.reigns, answers += s.answers;
+    ticks += s.ticks, records += s.records, detections += s.detections, reigns += s.reigns, renewals += s.renewals,
+        answers += s.answers;
     given_way += s.given_way, stale += s.stale, refused += s.refused, deletions += s.deletions;
     crashes += s.crashes, restarts += s.restarts, absences += s.absences;
     for (std::size_t i = 0; i < claims.size(); ++i) claims[i] += s.claims[i];
@@ -65,6 +66,7 @@ public:
     if (r.what == happening::heard_plan && r.verdict != verdict::refused) hear_plan(r);
     if (!team_.plays(r.robot)) return;
     if (r.what == happening::reign_began) begin_reign(r);
+    if (r.what == happening::reign_renewed) renew_reign(r);
     look_at_rule(r);
     if (r.what == happening::heard_claim) hear_claim(r);
     if (r.what == happening::deliberated) look_around(r);
@@ -84,6 +86,7 @@ private:
   /// What one robot has heard of another in its present life.
   struct peer {
     std::optional<message_number> last;
+    bool dissents = false;
     instant heard{};  // on its own clock
     std::optional<identity> obeyed;
     instant end{};  // of that claim, on its own clock
@@ -148,6 +151,7 @@ private:
              "what " + id(r.other) + " said is refused, for reason " + std::to_string(static_cast<int>(r.reason)));
       break;
     case happening::reign_began: ++seen_.reigns; break;
+    case happening::reign_renewed: ++seen_.renewals; break;
     case happening::reign_ended: seen_.given_way += r.superseded ? 1 : 0; break;
     case happening::crashed: ++seen_.crashes; break;
     case happening::restarted: ++seen_.restarts; break;
@@ -176,6 +180,8 @@ private:
       p.obeyed.reset();
     p.last = m.number;
     p.heard = now;
+    p.dissents =
+        std::any_of(m.types.begin(), m.types.end(), [](auto const& t) { return t.stance == stance::dissents; });
     if (!promises_.genuine || !team_.plays(r.robot) || !rule(r.robot).obeying()) return;
     auto const& c = rule(r.robot).current();
     if (index(c.leader) != r.other || c.incarnation > m.number.incarnation) return;
@@ -206,6 +212,18 @@ private:
       }
     }
     leaders_[r.robot].reigns.push_back(mine);
+  }
+  /// Notes that a reign is renewed: somebody has said that it would do otherwise, and not too often.
+  void renew_reign(log_record const& r) {
+    auto const& a = rule(r.robot);
+    auto const& peers = views_[r.robot].peers;
+    if (promises_.genuine && std::none_of(peers.begin(), peers.end(), [](peer const& p) { return p.dissents; }))
+      fail(invariant::answers_inherit, r, "renews its reign, and nobody has told it to do otherwise");
+    if (a.current().renewals > mind(r.robot).options().renewals)
+      fail(invariant::reigns_bounded, r,
+           "renews its reign for the " + std::to_string(a.current().renewals) + "th time");
+    instant const end = team_.clock(r.robot).global(a.expiry());
+    leaders_[r.robot].reigns.push_back({name(a.current()), end, end, 0});
   }
   [[nodiscard]] reign const* find(identity const& x) const {
     if (x.leader >= leaders_.size()) return nullptr;

@@ -13,23 +13,24 @@ namespace rota::sim {
 
 /// What happened to a robot, or what it did.
 enum class happening : unsigned char {
-  entered,      ///< it began to execute the plan type, alone
-  left,         ///< it stopped executing the plan type
-  crashed,      ///< it has lost all that it knew, and does nothing any more
-  restarted,    ///< it lives again; that it enters comes next
-  deliberated,  ///< `change` is by deletion and reallocation; `cycles` and `detected` are from the monitor
-  heard_plan,   ///< it received a plan message of `other`; `change` is e_m
-  heard_claim,  ///< it received a claim of `other`; `change` is what the claim imposed
-  said_plan,    ///< it broadcast a plan message
-  said_claim,   ///< it broadcast a claim: a new one, a new version, or a repetition
-  reign_began,  ///< it leads from now on: it has just `detected` a conflict, or it answers a smaller claim
-  reign_ended   ///< it leads no more; `superseded` if it obeys a greater claim instead
+  entered,        ///< it began to execute the plan type, alone
+  left,           ///< it stopped executing the plan type
+  crashed,        ///< it has lost all that it knew, and does nothing any more
+  restarted,      ///< it lives again; that it enters comes next
+  deliberated,    ///< `change` is by deletion and reallocation; `cycles` and `detected` are from the monitor
+  heard_plan,     ///< it received a plan message of `other`; `change` is e_m
+  heard_claim,    ///< it received a claim of `other`; `change` is what the claim imposed
+  said_plan,      ///< it broadcast a plan message
+  said_claim,     ///< it broadcast a claim: a new one, a new version, or a repetition
+  reign_began,    ///< it leads from now on: it has just `detected` a conflict, or it answers a smaller claim
+  reign_renewed,  ///< it goes on leading, with a new claim, since others would do otherwise
+  reign_ended     ///< it leads no more; `superseded` if it obeys a greater claim instead
 };
 
 [[nodiscard]] constexpr std::string_view to_string(happening h) noexcept {
-  constexpr std::string_view words[] = {"entered",     "left",        "crashed",     "restarted",
-                                        "deliberated", "heard-plan",  "heard-claim", "said-plan",
-                                        "said-claim",  "reign-began", "reign-ended"};
+  constexpr std::string_view words[] = {"entered",     "left",        "crashed",       "restarted",
+                                        "deliberated", "heard-plan",  "heard-claim",   "said-plan",
+                                        "said-claim",  "reign-began", "reign-renewed", "reign-ended"};
   return words[static_cast<std::size_t>(h)];
 }
 

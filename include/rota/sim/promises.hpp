@@ -18,7 +18,8 @@ enum class invariant : unsigned char {
   nothing_revives,   ///< a claim that has ended here is not obeyed again, and its end is never put off
   ends_with_leader,  ///< a claim ends here no earlier than at its leader, and no later than that plus the greatest delay
   reigns_bounded,    ///< nobody leads with or obeys one claim for longer than `max_reign`
-  answers_inherit,   ///< who leads has detected a conflict, or answers a claim; the answer ends when the claim does
+  answers_inherit,  ///< who leads has detected a conflict, renews its reign since others dissent, or answers a claim; an
+                    ///< answer ends when the claim does
   followers_follow,  ///< who obeys believes what the claim says, but for agents that take no part
   silent_forgotten,  ///< nobody is believed who has said nothing for silence + greatest delay + one claim period
   messages_heard,    ///< a plan message is accepted just if it is newer than the last, or its sender was long silent

@@ -255,7 +255,10 @@ private:
     } else {
       tell(observe, i, happening::deliberated, compose(d.deleted, d.event), more);
     }
-    if (d.reign_renewed) r.reign = r.mind.rule(book_.type.id())->current().number;  // the same reign goes on
+    if (d.reign_renewed) {
+      r.reign = r.mind.rule(book_.type.id())->current().number;
+      tell(observe, i, happening::reign_renewed, {});
+    }
     note_reign(i, observe, d.reign_began);
     speak(i, observe);
   }

@@ -76,7 +76,7 @@ public:
   void lead(typename V::plan_type type, allocation_atoms<V> atoms, claim_stamp<V> mine, rota::incarnation incarnation,
             std::uint64_t number, instant now, instant due, instant expiry, std::uint32_t renewals = 0) {
     ROTA_ASSERT(!leading());
-    claim_ = {type, std::move(atoms), mine, mine.id, incarnation, number, 1, renewals};
+    claim_ = {type, std::move(atoms), mine, mine.id, incarnation, number, 1, {}, {}, renewals};
     phase_ = phase::leading;
     began_ = now;
     expiry_ = expiry;

@@ -100,9 +100,9 @@ struct claim {
   rota::incarnation incarnation{};
   std::uint64_t number = 0;
   std::uint64_t version = 0;
-  std::uint32_t renewals = 0;  ///< an answer has as many as the claim that it answers
   duration remaining{};
   small_vector<duration, 8> ages{};  ///< of each atom's agent, the time since its last sign of life; 0 for the leader
+  std::uint32_t renewals = 0;        ///< an answer has as many as the claim that it answers
 
   friend bool operator==(claim const&, claim const&) = default;
 };

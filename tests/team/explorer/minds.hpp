@@ -29,6 +29,7 @@ inline rota::robot_options impatient() {
   o.opening = o.opening_period = rota::milliseconds(50);
   o.max_delay = rota::milliseconds(200);
   o.forget = rota::seconds(1);
+  o.renewals = 2;
   return o;
 }
 
@@ -93,7 +94,8 @@ struct outlook {
   claim_id ruling = 0;  // the claim in force
   soccer::agent leader{};
   rota::claim_stamp<soccer> stamp{};
-  rota::duration left{};    // until that claim ends
+  rota::duration left{};  // until that claim ends
+  std::uint32_t renewals = 0;
   std::uint32_t known = 0;  // the robots that take part, a bit each
   std::uint32_t held = 0;   // the allocation, four bits for each robot
 };
@@ -266,6 +268,7 @@ private:
       o.ruling = find({c.type, c.leader, c.incarnation.value, c.number});
       o.leader = c.leader;
       o.stamp = c.stamp;
+      o.renewals = c.renewals;
       o.left = rule->expiry() - now;
       if (o.obeys == (c.leader == r.self())) wrong_ = "obeys itself, or leads with the claim of another";
     }

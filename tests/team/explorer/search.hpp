@@ -279,8 +279,8 @@ private:
     std::ostringstream out;
     auto const o = impatient();
     auto const ms = [](rota::duration d) { return d.ns / 1'000'000; };
-    out << "cycles " << o.cycles << "\nreign " << ms(o.reign) << " ms\nsilence " << ms(o.silence)
-        << " ms\nmessage period " << ms(o.message_period) << " ms\nclaim period " << ms(o.claim_period)
+    out << "cycles " << o.cycles << "\nrenewals " << o.renewals << "\nreign " << ms(o.reign) << " ms\nsilence "
+        << ms(o.silence) << " ms\nmessage period " << ms(o.message_period) << " ms\nclaim period " << ms(o.claim_period)
         << " ms\nopening " << ms(o.opening) << " ms, every " << ms(o.opening_period) << " ms\nmax delay "
         << ms(o.max_delay) << " ms\nforget " << ms(o.forget) << " ms\nincarnation 5\nrobots " << setting_.robots
         << '\n';
@@ -355,6 +355,19 @@ private:
         if (w.alive(i)) tell(told, w, {act::tick, static_cast<std::uint8_t>(i)});
       while (!w.air().empty()) tell(told, w, {act::deliver, 0});
       if (k == 2 && o == world::order::late) hear_old();
+      tell_rule(told, w);
+    }
+  }
+  /// Who rules in whose eyes, as a remark.
+  void tell_rule(chronicle& told, world const& w) const {
+    for (std::size_t type = 0; type < setting_.types; ++type) {
+      told.out << "#";
+      for (std::size_t i = 0; i < w.size(); ++i) {
+        auto const& o = w.see(i, type);
+        if (w.alive(i) && o.leads) told.out << ' ' << i + 1 << " leads;";
+        if (w.alive(i) && o.obeys) told.out << ' ' << i + 1 << " obeys " << static_cast<int>(o.leader) << ';';
+      }
+      told.out << '\n';
     }
   }
 

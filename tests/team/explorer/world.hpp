@@ -87,7 +87,8 @@ public:
     if (o == order::first)
       for (auto const& f : old)
         if (auto const* wrong = deliver(f)) return wrong;
-    // A moment with two leaders, or with one obeyed that has just ended, is unavoidable; two or three rounds are not.
+    // A moment with two leaders is unavoidable, and so are two rounds with one obeyed that has ended, until it speaks, and two
+    // more until the leader does; more is not.
     rota::small_vector<int, 4> lasting{0, 0, 0, 0};
     for (int i = 0; i < setting_->rounds; ++i) {
       auto code = mixed(digest(), static_cast<std::uint64_t>(i));
@@ -252,9 +253,9 @@ private:
     auto const& h = minds_->hear(before, f.what);
     b.mind = h.after;
     if (auto const* c = std::get_if<claim>(&text)) {
-      if (auto const* wrong = note_claim(f.to, *c, h)) return wrong;
       std::size_t const type = c->type == type_ids[0] ? 0 : 1;
       auto const& was = minds_->see(before, type);
+      if (auto const* wrong = note_claim(f.to, *c, h, was)) return wrong;
       auto const& is = minds_->see(b.mind, type);
       if ((was.leads || was.obeys) && was.left > rota::duration{} && is.obeys && is.leader != was.leader &&
           is.stamp < was.stamp)
@@ -299,7 +300,7 @@ private:
     }
     return nullptr;
   }
-  char const* note_claim(std::size_t i, claim const& c, minds::hearing const& h) {
+  char const* note_claim(std::size_t i, claim const& c, minds::hearing const& h, outlook const& was) {
     if (h.verdict != rota::verdict::accepted) return nullptr;
     auto& b = bodies_[i];
     std::size_t const type = c.type == type_ids[0] ? 0 : 1;
@@ -308,12 +309,14 @@ private:
     if (n.heard[i] == not_yet) n.floor[i] = end - impatient().max_delay;
     if (n.heard[i] != long_past) n.heard[i] = (std::max)(n.floor[i], (std::min)(n.heard[i], end));
     if (h.outcome == rota::claim_outcome::expired) return nullptr;
+    if (was.obeys && was.leader == c.leader && was.renewals < c.renewals) b.stamps[type].frozen_until = long_past;
     freeze(i, type, now_ + c.remaining);
     if (h.outcome != rota::claim_outcome::challenged) return nullptr;
     if (b.was_blind) return "a blind robot answers";
     if ((n.answered >> i & 1) != 0) return "a claim is answered twice";
     n.answered = static_cast<std::uint8_t>(n.answered | 1u << i);
     if (minds_->see(b.mind, type).left > c.remaining) return "an answer outlives its claim";
+    if (minds_->see(b.mind, type).renewals != c.renewals) return "an answer may be renewed more often than its claim";
     return nullptr;
   }
   void freeze(std::size_t i, std::size_t type, rota::instant until) {
@@ -327,6 +330,11 @@ private:
       auto const& was = minds_->see(before, type);
       auto const& is = minds_->see(bodies_[i].mind, type);
       if (!is.leads || (was.leads && was.ruling == is.ruling)) continue;
+      if (was.leads && was.left > rota::duration{}) {
+        if (is.renewals != was.renewals + 1) return "a leader begins anew without renewing";
+        bodies_[i].stamps[type].frozen_until = long_past;
+      }
+      if (is.renewals > impatient().renewals) return "a reign is renewed too often";
       freeze(i, type, now_ + is.left);
       if (is.stamp.confidence != bodies_[i].stamps[type].confidence) return "a stamp changes while claims live";
       auto& end = note_of(is.ruling).end;
@@ -365,7 +373,7 @@ private:
     lasting[0] = leaders > 1 ? lasting[0] + 1 : 0;
     lasting[1] = orphan || deaf || other ? lasting[1] + 1 : 0;
     if (lasting[0] > 2) return "two settled leaders";
-    if (lasting[1] > 3) return orphan ? "an orphan, or a ghost obeyed" : deaf ? "deaf to a leader" : "obeys otherwise";
+    if (lasting[1] > 4) return orphan ? "an orphan, or a ghost obeyed" : deaf ? "deaf to a leader" : "obeys otherwise";
     return nullptr;
   }
   /// After all was heard: those who are alive know one another, and nobody else; and if all see the same they agree.

@@ -33,8 +33,9 @@ public:
 private:
   struct actor {
     robot mind;
-    int best;            // attacks best, it believes
-    bool blind = false;  // it sees nothing valid
+    int best;               // attacks best, it believes
+    bool blind = false;     // it sees nothing valid
+    bool dissents = false;  // it would do otherwise than its leader says
     bool alive = true;
     rota::duration clock{};  // so much its clock is ahead
     bool found = false;      // it has found a loop
@@ -72,6 +73,7 @@ private:
     static std::vector<form> const all{
         {"cycles #", [](story& s) { s.early().cycles = static_cast<std::uint32_t>(s.n_[0]); }},
         {"reign # ms", [](story& s) { s.early().reign = s.options_.max_reign = s.ms(0); }},
+        {"renewals #", [](story& s) { s.early().renewals = static_cast<std::uint32_t>(s.n_[0]); }},
         {"silence # ms", [](story& s) { s.early().silence = s.ms(0); }},
         {"message period # ms", [](story& s) { s.early().message_period = s.ms(0); }},
         {"claim period # ms", [](story& s) { s.early().claim_period = s.ms(0); }},
@@ -123,6 +125,8 @@ private:
          [](story& s) { s.each([](actor& a) { need(!a.found, name(a) + " has"); }); }},
         {"expect the clock of # was set back # ms", [](story& s) { need(s.who(0).set_back == s.ms(1), "it was not"); }},
         {"expect that was *", [](story& s) { need(s.last_ == s.word_, "it was " + s.last_); }},
+        {"expect # dissents", [](story& s) { need(s.who(0).dissents, "it does not"); }},
+        {"expect # does not dissent", [](story& s) { need(!s.who(0).dissents, "it does"); }},
         {"expect # thinks that # *", [](story& s) { s.task(s.who(0), s.who(1)); }},
         {"expect # *", [](story& s) { s.task(s.who(0), s.who(0)); }},
     };
@@ -173,6 +177,7 @@ private:
       if (!a.mind.executes(type->id())) continue;
       auto const d = a.mind.deliberate(*type, fixture_.members, v, a.now(now_), space_);
       a.found |= d.detected.has_value();
+      a.dissents = d.dissents;
       a.set_back = (std::max)(a.set_back, d.clock_set_back);
     }
   }

@@ -1,0 +1,267 @@
+// Who obeys says if it would do otherwise; then the leader renews its reign. Who sees nothing valid says so and is given nothing.
+#include <gtest/gtest.h>
+
+#include "playground.hpp"
+
+#include <rota/team/print.hpp>
+
+#include <optional>
+#include <variant>
+
+namespace dissent_test {
+
+using rota::decision_reason;
+using rota::milliseconds;
+using rota::seconds;
+using rota::stance;
+
+namespace {
+
+struct dissent : playground {
+  /// What it would say now, if it is due.
+  static stance stands(robot a, rota::instant now) {
+    while (auto const m = a.next_message(now))
+      if (auto const* p = std::get_if<plan_message>(&*m)) return p->types[0].stance;
+    return stance::none;
+  }
+  static plan_message says_so(int sender, std::uint64_t sequence, std::optional<soccer::task> task, stance s) {
+    auto m = says(sender, sequence, task);
+    m.types[0].stance = s;
+    return m;
+  }
+  /// Robot 5, which has answered a claim of robot 4 and leads until 2 s.
+  robot leader(rota::robot_options const& options = {}) {
+    robot a = in_play(5, options);
+    a.receive(says(4, 1, defend), start);
+    a.receive(claim_by(4, 4), start);
+    (void)think(a, sees(5), start);
+    return a;
+  }
+  /// All claims that it says now.
+  static std::optional<claim> claims(robot& a, rota::instant now) {
+    std::optional<claim> last;
+    while (auto const m = a.next_message(now))
+      if (auto const* c = std::get_if<claim>(&*m)) last = *c;
+    return last;
+  }
+};
+
+TEST_F(dissent, is_said_just_while_a_follower_would_do_otherwise) {
+  auto a = in_play(1);
+  a.receive(says(9, 1, defend), start);
+  auto c = claim_by(9, 1);
+  c.atoms.insert(does(9, defend));
+  c.ages.push_back({});
+  a.receive(c, start);
+  auto d = think(a, sees(1), start + milliseconds(30));
+  EXPECT_EQ(d.reason, decision_reason::obeyed);
+  EXPECT_FALSE(d.dissents);
+  EXPECT_EQ(stands(a, start + milliseconds(100)), stance::none);
+
+  d = think(a, sees(9), start + milliseconds(60));
+  EXPECT_EQ(d.reason, decision_reason::obeyed);
+  EXPECT_TRUE(d.dissents);
+  EXPECT_TRUE(d.event.empty()) << "it says so, and does what it is told";
+  EXPECT_EQ(d.own, does(1, attack));
+  EXPECT_TRUE(d.search->atoms.contains(does(9, attack)));
+  EXPECT_EQ(stands(a, start + milliseconds(100)), stance::dissents);
+  EXPECT_EQ(stands(a, start + seconds(2)), stance::none) << "nobody rules any more";
+  EXPECT_FALSE(think(a, sees(1), start + milliseconds(90)).dissents);
+  EXPECT_EQ(stands(a, start + milliseconds(100)), stance::none);
+}
+
+TEST_F(dissent, is_not_the_hysteresis_of_a_plan) {
+  rota::robot_options o;
+  o.hysteresis = rota::hysteresis{0.5, {}};
+  auto a = in_play(1, o);
+  auto c = claim_by(9, 1);
+  c.atoms.insert(does(9, defend));
+  c.ages.push_back({});
+  a.receive(c, start);
+  view v;
+  v.attack[1] = 0.6, v.attack[9] = 1;
+  EXPECT_FALSE(think(a, v, start).dissents) << "by itself it would keep this allocation";
+  v.attack[1] = 0.1;
+  EXPECT_TRUE(think(a, v, start).dissents);
+}
+
+TEST_F(dissent, a_leader_renews_if_it_was_told_to_and_its_reign_ends_soon) {
+  for (auto const told : {stance::none, stance::abstains, stance::dissents}) {
+    auto a = leader();
+    auto const first = *claims(a, start);
+    a.receive(says_so(4, 2, defend, told), start + milliseconds(100));
+    EXPECT_FALSE(think(a, sees(5), start + milliseconds(1499)).reign_renewed) << "it has more than `max_delay` left";
+    auto const d = think(a, sees(5), start + milliseconds(1500));
+    EXPECT_EQ(d.reign_renewed, told == stance::dissents);
+    EXPECT_FALSE(d.reign_began || d.reign_ended);
+    auto const next = *claims(a, start + milliseconds(1500));
+    bool const renewed = told == stance::dissents;
+    EXPECT_EQ(next.number, first.number + (renewed ? 1 : 0));
+    EXPECT_EQ(next.renewals, renewed ? 1u : 0u);
+    EXPECT_EQ(next.remaining, renewed ? seconds(2) : milliseconds(500));
+    EXPECT_EQ(a.rule(play_id)->expiry(), start + (renewed ? milliseconds(3500) : milliseconds(2000)));
+  }
+}
+
+TEST_F(dissent, counts_as_its_sender_said_last_and_only_while_it_takes_part) {
+  auto const renews = [&](robot a) { return think(a, sees(5), start + milliseconds(1600)).reign_renewed; };
+  auto a = leader();
+  a.receive(says_so(4, 3, defend, stance::dissents), start + milliseconds(100));
+  EXPECT_TRUE(renews(a));
+  a.receive(says_so(4, 2, defend, stance::none), start + milliseconds(200));
+  EXPECT_TRUE(renews(a)) << "an old message";
+  auto b = a;
+  b.receive(says_so(4, 4, defend, stance::none), start + milliseconds(300));
+  EXPECT_FALSE(renews(b));
+  b = a;
+  b.receive(says_nothing(4, 4), start + milliseconds(300));
+  EXPECT_FALSE(renews(b)) << "it has left";
+  rota::robot_options o;
+  o.silence = seconds(1);
+  o.max_delay = milliseconds(400);
+  b = leader(o);
+  b.receive(says_so(4, 3, defend, stance::dissents), start + milliseconds(100));
+  EXPECT_FALSE(think(b, sees(5), start + milliseconds(1700)).reign_renewed) << "it was silent for too long";
+}
+
+TEST_F(dissent, renews_a_reign_so_often_at_most_and_never_if_it_may_not) {
+  for (std::uint32_t const most : {0u, 1u, 3u}) {
+    rota::robot_options o;
+    o.renewals = most;
+    auto a = leader(o);
+    std::uint32_t renewed = 0;
+    std::uint64_t n = 1;
+    auto now = start;
+    for (; a.rule(play_id)->leading(); now += milliseconds(30)) {
+      a.receive(says_so(4, ++n, defend, stance::dissents), now);
+      auto const d = think(a, sees(5), now);
+      renewed += d.reign_renewed;
+      EXPECT_EQ(d.search.has_value(), true);
+      if (d.leader) {
+        EXPECT_LE(claims(a, now).value_or(claim{}).renewals, most);
+      }
+    }
+    EXPECT_EQ(renewed, most);
+    EXPECT_LE(now, start + seconds(2) * static_cast<std::int64_t>(most + 1) + milliseconds(60));
+  }
+}
+
+TEST_F(dissent, costs_nothing_where_nobody_renews) {
+  rota::robot_options o;
+  o.renewals = 0;
+  auto a = in_play(1, o);
+  a.receive(says(9, 1, defend), start);
+  a.receive(claim_by(9, 1), start);
+  auto const d = think(a, sees(9), start + milliseconds(30));
+  EXPECT_FALSE(d.search);
+  EXPECT_FALSE(d.dissents);
+  EXPECT_EQ(stands(a, start + milliseconds(100)), stance::none);
+}
+
+TEST_F(dissent, a_renewal_is_obeyed_and_the_claim_before_it_is_over) {
+  auto a = in_play(1);
+  auto const first = claim_by(9, 1);
+  a.receive(first, start);
+  auto second = claim_by(9, 1, 2);
+  second.renewals = 1;
+  EXPECT_EQ(a.receive(second, start + milliseconds(1500)).claim, rota::claim_outcome::adopted);
+  EXPECT_EQ(a.rule(play_id)->expiry(), start + milliseconds(3500));
+  EXPECT_EQ(a.receive(first, start + milliseconds(1510)).claim, rota::claim_outcome::expired);
+  EXPECT_EQ(a.rule(play_id)->current().number, 2u);
+  second.renewals = 2;
+  EXPECT_EQ(a.receive(second, start + milliseconds(1520)).reason, rota::refusal::foreign_stamp)
+      << "how often it was renewed never changes";
+}
+
+/// Robot 1 is smaller than 9; its confidence grows while it obeys. Its stamp stays until the reign is renewed.
+TEST_F(dissent, a_renewal_opens_again_who_leads_and_nothing_else_does) {
+  auto a = in_play(1);
+  a.receive(claim_by(9, 9), start);
+  a.set_confidence(3);
+  EXPECT_EQ(a.receive(claim_by(9, 9), start + milliseconds(100)).claim, rota::claim_outcome::repeated);
+  auto next = claim_by(9, 9, 2);
+  EXPECT_EQ(a.receive(next, start + milliseconds(200)).claim, rota::claim_outcome::adopted)
+      << "a claim of its own right, made after another detection";
+  next.number = 3;
+  next.renewals = 1;
+  EXPECT_EQ(a.receive(next, start + milliseconds(1500)).claim, rota::claim_outcome::challenged);
+  (void)think(a, sees(1), start + milliseconds(1500));
+  auto const answer = *claims(a, start + milliseconds(1500));
+  EXPECT_EQ(answer.stamp.confidence, 3u);
+  EXPECT_EQ(answer.renewals, 1u) << "as often renewed as the claim that it answers";
+  EXPECT_LE(answer.remaining, seconds(2));
+  a.set_confidence(7);
+  EXPECT_EQ(claims(a, start + milliseconds(1600))->stamp.confidence, 3u) << "frozen again";
+  a.receive(says_so(9, 1, defend, stance::dissents), start + milliseconds(1700));
+  EXPECT_TRUE(think(a, sees(1), start + milliseconds(3100)).reign_renewed);
+  EXPECT_EQ(claims(a, start + milliseconds(3100))->stamp.confidence, 7u) << "who leads is open again";
+}
+
+TEST_F(dissent, who_sees_nothing_valid_abstains_also_under_authority) {
+  auto a = in_play(1);
+  view none;
+  none.attack.fill(-100);
+  (void)think(a, none, start);
+  EXPECT_EQ(stands(a, start + milliseconds(100)), stance::abstains);
+  a.receive(claim_by(9, 1), start + milliseconds(10));
+  auto const d = think(a, none, start + milliseconds(30));
+  EXPECT_EQ(d.reason, decision_reason::obeyed);
+  EXPECT_FALSE(d.dissents);
+  EXPECT_EQ(d.own, does(1, attack)) << "it obeys";
+  EXPECT_EQ(stands(a, start + milliseconds(100)), stance::abstains);
+  (void)think(a, sees(1), start + milliseconds(60));
+  EXPECT_NE(stands(a, start + milliseconds(100)), stance::abstains);
+}
+
+TEST_F(dissent, who_abstains_is_given_no_task_as_long_as_others_can_take_them_all) {
+  auto a = in_play(1);
+  a.receive(says_so(2, 1, std::nullopt, stance::abstains), start);
+  auto d = think(a, sees(2), start);
+  EXPECT_EQ(a.believes(play_id)->atoms(), (atoms{does(1, attack)})) << "though 2 would attack better";
+  EXPECT_TRUE(a.believes(play_id)->takes_part(agent(2)));
+  a.receive(says_so(2, 2, std::nullopt, stance::none), start);
+  d = think(a, sees(2), start);
+  EXPECT_EQ(a.believes(play_id)->atoms(), (atoms{does(1, defend), does(2, attack)}));
+  // As a leader, too: what it gave is taken away.
+  auto b = leader();
+  (void)think(b, sees(4), start);
+  EXPECT_TRUE(b.believes(play_id)->atoms().contains(does(4, attack)));
+  b.receive(says_so(4, 2, attack, stance::abstains), start);
+  (void)think(b, sees(4), start);
+  EXPECT_EQ(b.believes(play_id)->atoms(), (atoms{does(5, attack)}));
+}
+
+/// If only those who abstain could make an allocation valid, they are counted in: or else one blind robot would blind all.
+TEST_F(dissent, who_abstains_makes_nobody_else_abstain) {
+  using plan = rota::plan<soccer, view>;
+  rota::additive_utility<soccer, view> const worth = [](soccer::agent a, soccer::task, view const& v) {
+    return std::optional<double>(v.attack[static_cast<std::size_t>(a)]);
+  };
+  auto const pair = *plan::make({.plan = soccer::plan::normal,
+                                 .tasks = {{soccer::task::attack, {2, 2}, soccer::state::get_ball}},
+                                 .utility = worth});
+  auto const both = *rota::plan_type<soccer, view>::make(play_id, {pair});
+  robot a(agent(1), squad(9), first_life);
+  a.enter(both, start);
+  a.receive(says_so(2, 1, std::nullopt, stance::abstains), start);
+  auto const d = a.deliberate(both, members, sees(2), start, space);
+  EXPECT_EQ(d.reason, decision_reason::reallocated);
+  EXPECT_EQ(a.believes(play_id)->atoms(), (atoms{does(1, attack), does(2, attack)}));
+  EXPECT_EQ(stands(a, start + milliseconds(100)), stance::none);
+}
+
+TEST_F(dissent, is_told_in_words) {
+  auto a = leader();
+  a.receive(says_so(4, 2, defend, stance::dissents), start + milliseconds(100));
+  EXPECT_NE(describe(think(a, sees(5), start + milliseconds(1500)))
+                .find("the robot renews its reign, since others would do "
+                      "otherwise"),
+            std::string::npos);
+  EXPECT_NE(to_string(says_so(4, 2, defend, stance::dissents)).find(", dissents"), std::string::npos);
+  EXPECT_NE(to_string(says_so(4, 2, std::nullopt, stance::abstains)).find("no task, abstains"), std::string::npos);
+  EXPECT_EQ(to_string(says(4, 2, defend)).find("dissents"), std::string::npos);
+}
+
+}  // namespace
+
+}  // namespace dissent_test
