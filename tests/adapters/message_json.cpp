@@ -194,9 +194,12 @@ TEST(message_json, exactly_its_keys_belong_in_an_object) {
   expect(claim_text, R"("number": 2)", R"("number": 2, "number": 2)",
          {"/claim/number", "the key \"number\" stands twice in one object"});
   expect(claim_text, R"("plan": -3, )", "", {"/claim", "it names a plan if and only if it has atoms"});
+  for (auto const* const word : {R"("assents")", R"("none")", "1", "null"})
+    expect(plan_text, R"("abstains")", word,
+           {"/plan_message/types/1/stance", std::string(word) + ", neither \"abstains\" nor \"dissents\""});
   expect(plan_text, R"("leads": 0)", R"("leads": 0, "Place": 1)",
          {"/plan_message/types/1", "the key \"Place\" is unknown here"});
-  expect(plan_text, R"("rota": 1, )", "", {"/", "the key \"rota\" is missing"});
+  expect(plan_text, R"("rota": 2, )", "", {"/", "the key \"rota\" is missing"});
   expect(plan_text, R"("rota": 2)", R"("rota": 1)", {"/rota", "another version of the form"});
   expect(plan_text, R"("plan_message")", R"("plan")", {"/", "the key \"plan\" is unknown here"});
   EXPECT_EQ(fault(R"({"rota": 2})"), (json_fault{"/", "neither one plan message nor one claim"}));

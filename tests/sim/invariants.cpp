@@ -70,6 +70,7 @@ struct invariants : testing::Test {
     p.silence = milliseconds(2600);
     p.forget = seconds(30);
     p.longest_reign = seconds(2);
+    p.renewals = 1;
     p.healed = p.hearing = p.settled = never;
     return p;
   }();
@@ -80,9 +81,9 @@ struct invariants : testing::Test {
     robot(i).rules = {};
     robot(i).rules.hear(c, std::nullopt, now, milliseconds(500));
   }
-  void lead(std::size_t i, std::uint64_t number, instant end) {
+  void lead(std::size_t i, std::uint64_t number, instant end, std::uint32_t renewals = 0) {
     robot(i).rules = {};
-    robot(i).rules.lead(type, {}, {0, {i + 1}}, {1000}, number, instant{}, instant{}, end);
+    robot(i).rules.lead(type, {}, {0, {i + 1}}, {1000}, number, instant{}, instant{}, end, renewals);
   }
   void tell(instant t, std::size_t i, happening what, std::size_t other = 0, message<names> const* content = nullptr,
             std::optional<claim_outcome> outcome = std::nullopt, verdict v = verdict::accepted) {
@@ -191,6 +192,30 @@ TEST_F(invariants, answers_inherit_an_end) {
   hear(at(0), 2, claim_of(2, 1), claim_outcome::challenged);
   tell(at(0), 2, happening::reign_began);
   broken(invariant::answers_inherit);
+}
+
+TEST_F(invariants, answers_inherit_dissent_that_was_heard) {
+  auto dissents = plan_of(2, 1);
+  dissents.types[0].stance = stance::dissents;
+  lead(2, 1, at(2000));
+  hear(at(0), 2, dissents);
+  lead(2, 2, at(3500), 1);
+  tell(at(1500), 2, happening::reign_renewed);
+  fine();
+  EXPECT_EQ(watch->seen().renewals, 1U);
+  hear(at(1600), 2, plan_of(2, 2));
+  lead(2, 3, at(5000), 1);
+  tell(at(3000), 2, happening::reign_renewed);
+  broken(invariant::answers_inherit);
+}
+
+TEST_F(invariants, reigns_bounded_in_how_often_they_are_renewed) {
+  auto dissents = plan_of(2, 1);
+  dissents.types[0].stance = stance::dissents;
+  hear(at(0), 2, dissents);
+  lead(2, 2, at(3500), 2);
+  tell(at(1500), 2, happening::reign_renewed);
+  broken(invariant::reigns_bounded);
 }
 
 TEST_F(invariants, followers_follow) {

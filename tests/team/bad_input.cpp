@@ -205,7 +205,7 @@ TEST_F(bad_input, bytes_that_are_no_message_are_counted_by_name) {
   b[3] ^= std::byte{16};
   expect(wire_fault::checksum, b);
   b = unsealed(m);
-  b[0] = std::byte{0xa4};
+  b[0] = std::byte{0xa2};
   expect(wire_fault::version, sealed(b));
   b[0] = std::byte{'{'};
   expect(wire_fault::foreign, sealed(b));

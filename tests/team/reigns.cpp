@@ -38,7 +38,9 @@ TEST_F(reigns, two_that_each_see_themselves_best_loop_until_one_rules) {
   EXPECT_GT(without.detections[1] + without.detections[2], 5);
   EXPECT_EQ(without.reigns[1] + without.reigns[2], 0);
 
-  pitch with(*this, {sees(1), sees(2)});
+  rota::robot_options fixed;
+  fixed.renewals = 0;
+  pitch with(*this, {sees(1), sees(2)}, fixed);
   with.run(milliseconds(700));
   EXPECT_TRUE(with.agreed());
   EXPECT_TRUE(with.robots[1].rule(play_id)->leading()) << "the greatest id leads";

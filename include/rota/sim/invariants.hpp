@@ -219,7 +219,7 @@ private:
     auto const& peers = views_[r.robot].peers;
     if (promises_.genuine && std::none_of(peers.begin(), peers.end(), [](peer const& p) { return p.dissents; }))
       fail(invariant::answers_inherit, r, "renews its reign, and nobody has told it to do otherwise");
-    if (a.current().renewals > mind(r.robot).options().renewals)
+    if (a.current().renewals > promises_.renewals)
       fail(invariant::reigns_bounded, r,
            "renews its reign for the " + std::to_string(a.current().renewals) + "th time");
     instant const end = team_.clock(r.robot).global(a.expiry());

@@ -101,6 +101,7 @@ public:
       if (mine.began && !(r.superseded && r.time - *mine.began < calm)) count(r.robot);
       mine = {};
       break;
+    case happening::reign_renewed:
     case happening::entered:
     case happening::left:
     case happening::crashed:

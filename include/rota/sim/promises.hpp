@@ -45,16 +45,17 @@ inline constexpr std::size_t invariant_count = static_cast<std::size_t>(invarian
 
 /// The bounds to which a run is held. They follow from its options; to hold a run to others is to test the test.
 struct promises {
-  duration delay{};          ///< no message is under way for longer
-  duration slack{};          ///< of a reign, by different speeds of clocks
-  duration silence{};        ///< nobody who has said nothing for longer is believed
-  duration forget{};         ///< who was not heard for longer may begin a new life with any number
-  duration longest_reign{};  ///< of one claim
-  instant healed{};          ///< nothing goes wrong any more
-  instant hearing{};         ///< all hear all
-  instant settled{};         ///< nobody rules, and all agree
-  bool overdue = false;      ///< messages may be under way for longer than `max_delay`
-  bool genuine = true;       ///< no bit flips: much is promised only of what was really said
+  duration delay{};            ///< no message is under way for longer
+  duration slack{};            ///< of a reign, by different speeds of clocks
+  duration silence{};          ///< nobody who has said nothing for longer is believed
+  duration forget{};           ///< who was not heard for longer may begin a new life with any number
+  duration longest_reign{};    ///< of one claim
+  std::uint32_t renewals = 0;  ///< so often a reign is renewed at most
+  instant healed{};            ///< nothing goes wrong any more
+  instant hearing{};           ///< all hear all
+  instant settled{};           ///< nobody rules, and all agree
+  bool overdue = false;        ///< messages may be under way for longer than `max_delay`
+  bool genuine = true;         ///< no bit flips: much is promised only of what was really said
 };
 
 /// What a team with these options promises if all see the same from `calm` on and no message is lost from `healed` on. With P
@@ -80,6 +81,7 @@ struct promises {
   duration const in_time = p.delay;
   if (f.late) p.delay = (std::max)(p.delay, f.late->most);
   p.longest_reign = o.robot.max_reign;
+  p.renewals = o.robot.renewals;
   p.slack = 2 * (slow(o.robot.max_reign) - o.robot.max_reign);
   // Whom a claim names is older by at least the delay that the robots expect; a claim that took longer makes it younger.
   duration const unexpected = (std::max)(p.delay - o.robot.max_delay, duration{});
