@@ -70,10 +70,11 @@ std::string told(sim::campaign_run const& run) {
 campaign_summary summary_of(campaign_options const& o, sim::campaign_report const& r) {
   auto const& s = r.seen;
   campaign_summary out{o.seed, r.runs};
-  out.seen = {{"ticks", s.ticks},     {"steps", s.records},     {"detections", s.detections},
-              {"reigns", s.reigns},   {"answers", s.answers},   {"given way", s.given_way},
-              {"stale", s.stale},     {"refused", s.refused},   {"deletions", s.deletions},
-              {"crashes", s.crashes}, {"restarts", s.restarts}, {"absences", s.absences}};
+  out.seen = {{"ticks", s.ticks},         {"steps", s.records},     {"detections", s.detections},
+              {"reigns", s.reigns},       {"renewals", s.renewals}, {"answers", s.answers},
+              {"given way", s.given_way}, {"stale", s.stale},       {"refused", s.refused},
+              {"deletions", s.deletions}, {"crashes", s.crashes},   {"restarts", s.restarts},
+              {"absences", s.absences}};
   constexpr std::array outcomes{"adopted", "revised", "repeated", "expired", "outranked", "challenged"};
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     out.seen.emplace_back(std::string("claims ") + outcomes[i], s.claims[i]);

@@ -29,7 +29,7 @@ std::string shown(campaign_report const& r) {
 TEST(campaign, no_promise_is_broken_whatever_goes_wrong) {
   campaign_options o;
   o.seed = 20110301;
-  o.ticks = 40'000 * more();
+  o.ticks = 60'000 * more();
   auto const r = run_campaign(o);
   ASSERT_FALSE(r.broken) << shown(r);
   auto const& s = r.seen;
