@@ -46,20 +46,26 @@ concept coordinator = std::copyable<C> && std::constructible_from<C, post const&
                         { C::bytes(m) } -> std::convertible_to<std::size_t>;  // what it takes on the air
                       };
 
-/// Where a robot with this part of an allocation goes, as it sees the world; without a part it stays.
-[[nodiscard]] inline std::optional<point> target_of(playbook const& book, in<names> const& part,
-                                                    perceived const& seen) {
-  if (book.attacks(part)) return seen.ball;
+/// The home of a task, or nothing if it is to attack. @pre the book has the task
+[[nodiscard]] inline std::optional<point> home_of_task(playbook const& book, names::plan plan, names::task task) {
+  std::size_t others = 0;
   for (std::size_t i = 0; i < book.plans.size(); ++i) {
-    if (book.plans[i].id != part.plan) continue;
-    std::size_t others = 0;
+    if (book.plans[i].id != plan || book.attacking[i] == task) continue;
     for (auto const& t : book.plans[i].tasks) {
-      if (t.id == book.attacking[i]) continue;
-      if (t.id == part.task) return home_of(others);
-      ++others;
+      if (t.id == task) return home_of(others);
+      others += t.id == book.attacking[i] ? 0 : 1;
     }
   }
   return std::nullopt;
+}
+
+/// Where a robot with this part of an allocation goes, as it sees the world: to the ball, or half the way from the home of its
+/// task to its own place in the formation, so that two with one task stand apart.
+[[nodiscard]] inline point target_of(playbook const& book, in<names> const& part, perceived const& seen) {
+  auto const home = home_of_task(book, part.plan, part.task);
+  if (!home) return seen.ball;
+  point const both = *home + formation_spot(part.agent.value - 1);
+  return {both.x / 2, both.y / 2};
 }
 
 }  // namespace rota::sim::closed

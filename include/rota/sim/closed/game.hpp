@@ -196,11 +196,10 @@ private:
     auto const part = part_of<names>(believed, members_.agents()[i]);
     bool const attacks = !part.empty() && book_.attacks(part.front());
     // It may be wrong about its place, and knows only how far it has to go from there.
-    auto const where = part.empty() || r.seen.robots.empty() ? std::nullopt : target_of(book_, part.front(), r.seen);
-    if (where) {
-      world_.send(i, r.stood + (*where - r.seen.robots[i]), attacks);
-    } else {
+    if (part.empty() || r.seen.robots.empty()) {
       world_.stop(i);
+    } else {
+      world_.send(i, r.stood + (target_of(book_, part.front(), r.seen) - r.seen.robots[i]), attacks);
     }
     tally_.note(i, &believed, attacks);
     speak(i);
