@@ -138,6 +138,44 @@ TEST(reallocate, keeps_what_is_valid_and_good_enough) {
   EXPECT_GE(violated * 100, cases * 10);
 }
 
+// Every set of In-atoms of two agents, a stranger, two plans and two tasks: valid or not, mixed, or of two tasks for one agent.
+TEST(reallocate, judges_a_running_allocation_by_what_the_search_knows_as_validate_judges_it) {
+  raw_problem raw;
+  raw.members = {0, 1, 2};
+  raw.participants = {0, 1};
+  raw_plan p;
+  p.tasks = {{0, 0, 1}, {1, 0, 2}};
+  p.u[0] = {1, 2};
+  p.u[1] = {-4, std::nullopt};
+  raw.plans = {p, p};
+  raw.plans[1].id = 1;
+  raw.plans[1].u[1] = {3, 5};
+  raw.forbidden[0][1] = true;
+  built const b(raw);
+  rota::problem const problem{b.type, b.team, b.beliefs, b.participants};
+  facts all;
+  for (int agent : {0, 1, 2})
+    for (int plan : {0, 1})
+      for (int task : {0, 1}) all.push_back({agent, plan, task});
+
+  rota::workspace work;
+  int valid = 0;
+  for (unsigned chosen = 0; chosen < 1u << all.size(); ++chosen) {
+    facts current;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if ((chosen >> i & 1u) != 0) current.push_back(all[i]);
+    auto const running = to_atoms(current);
+    auto const ask = problem.running(running);
+    auto const got = reallocate(ask, {}, work);
+    auto judged = reallocate(ask, {}, best_allocation(ask, work));
+    judged.work = got.work;
+    EXPECT_TRUE(got == judged) << chosen;
+    valid += got.gain.has_value();
+  }
+  // Nothing; agent 0 on task 0 of either plan; agent 1 on either task of plan 1, or on task 1 beside agent 0.
+  EXPECT_EQ(valid, 6);
+}
+
 TEST(reallocate, keeps_what_is_valid_for_ever_under_an_infinite_hysteresis) {
   raw_problem raw;
   raw.members = raw.participants = {0};

@@ -38,6 +38,13 @@ struct fixed_utility {
   friend auto operator<=>(fixed_utility, fixed_utility) = default;
 };
 
+namespace detail {
+
+/// `max_total_utility` in units.
+inline constexpr auto most_total_units = static_cast<std::int64_t>(max_total_utility * fixed_utility::units_per_one);
+
+}  // namespace detail
+
 /// The nearest fixed-point value, halves away from zero in every rounding mode; or why there is none.
 [[nodiscard]] constexpr result<fixed_utility, utility_fault> quantise(double const& u) noexcept {
   if (!detail::is_finite(u)) {

@@ -24,26 +24,25 @@ template <vocabulary V, class Beliefs, class Sink>
                                                  allocation_view<V> atoms, Sink&& fault) {
   fixed_utility total;
   bool defined = true;
-  auto count = [&](result<fixed_utility, utility_fault> const& term, std::optional<in<V>> x, std::optional<in<V>> y) {
+  auto count = [&](result<fixed_utility, utility_fault> const& term, auto const&... about) {
     auto const reason = add(total, term);
     if (reason == utility_fault::none) return;
     defined = false;
-    fault(utility_refusal<V>{reason, x, y});
+    fault(utility_refusal<V>{reason, about...});
   };
   for_each_part<V, Beliefs>(p.utility(), [&](double weight, auto const& part) {
     using part_type = std::remove_cvref_t<decltype(part)>;
     if constexpr (std::same_as<part_type, general_utility<V, Beliefs>>) {
-      count(value_of<V, Beliefs>(problem, weight, part, atoms), std::nullopt, std::nullopt);
+      count(value_of<V, Beliefs>(problem, weight, part, atoms));
     } else {
-      for (in<V> const& x : atoms) count(term_of<V, Beliefs>(problem, weight, part, x), x, std::nullopt);
+      for (in<V> const& x : atoms) count(term_of<V, Beliefs>(problem, weight, part, x), x);
     }
     if constexpr (std::same_as<part_type, pairwise_utility<V, Beliefs>>)
       for (in<V> const& x : atoms)
         for (in<V> const& y : atoms)
           if (x.agent < y.agent) count(term_of<V, Beliefs>(problem, weight, part, x, y), x, y);
   });
-  constexpr auto most = static_cast<std::int64_t>(max_total_utility * fixed_utility::units_per_one);
-  if (defined && (total.units > most || total.units < -most)) {
+  if (defined && (total.units > most_total_units || total.units < -most_total_units)) {
     fault(utility_refusal<V>{utility_fault::out_of_range});
     return std::nullopt;
   }

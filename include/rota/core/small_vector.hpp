@@ -114,8 +114,12 @@ public:
     size_ = wanted;
   }
 
-  constexpr void push_back(T item) {
-    if (size_ == capacity_) reserve(capacity_ < 4 ? 8 : 2 * capacity_);
+  constexpr void push_back(T const& item) {
+    if (size_ == capacity_) return grow(T(item));
+    data()[size_++] = item;
+  }
+  constexpr void push_back(T&& item) {
+    if (size_ == capacity_) return grow(std::move(item));
     data()[size_++] = std::move(item);
   }
   /// Calls `write(first)`, which writes at most `most` elements from `first` on and returns their end, and appends
@@ -189,6 +193,10 @@ private:
     } else if (items) {
       ::operator delete(items);
     }
+  }
+  constexpr void grow(T item) {
+    reserve(capacity_ < 4 ? 8 : 2 * capacity_);
+    data()[size_++] = std::move(item);
   }
   constexpr void take(small_vector& other) noexcept(nothrow_movable) {
     heap_ = std::exchange(other.heap_, nullptr);

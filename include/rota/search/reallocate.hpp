@@ -2,8 +2,8 @@
 
 #include <rota/algebra/apply.hpp>
 #include <rota/allocation/hysteresis.hpp>
-#include <rota/allocation/validate.hpp>
 #include <rota/search/best_allocation.hpp>
+#include <rota/search/detail/standing.hpp>
 
 #include <optional>
 #include <utility>
@@ -45,59 +45,11 @@ struct reallocation {
 
 namespace detail {
 
-/// The running allocation: its plan and utility if it is valid, otherwise what it violates first.
-template <vocabulary V>
-struct standing {
-  bool valid = false;
-  typename V::plan plan{};
-  fixed_utility utility{};
-  double hysteresis = 0;  // the plan's own
-  std::optional<violation<V>> violated{};
-};
-
-/// U_p of the running allocation if it is valid for p; otherwise `violated` is the first violation.
-template <vocabulary V, class Beliefs>
-[[nodiscard]] standing<V> standing_for(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p,
-                                       plan_phase phase) {
-  standing<V> s;
-  s.plan = p.id();
-  s.hysteresis = p.hysteresis();
-  auto const total = judge(problem, p, problem.current, phase, [&](violation<V> const& v) {
-    if (!s.violated) s.violated = v;
-  });
-  s.valid = !s.violated;
-  if (s.valid) s.utility = *total;
-  return s;
-}
-
-/// C = ∅ names no plan: it stands as the best plan for which it is valid, without a hysteresis, and violates nothing.
-template <vocabulary V, class Beliefs>
-[[nodiscard]] standing<V> standing_of(problem<V, Beliefs> const& problem) {
-  if (!problem.current.empty()) {
-    auto const& first = problem.current.front();
-    auto const* const p = problem.type.find(first.plan);
-    if (p != nullptr) return standing_for(problem, *p, plan_phase::running);
-    standing<V> none;
-    none.violated = at<V>(clause::one_plan, first.plan, first);
-    return none;
-  }
-  standing<V> best;
-  for (plan<V, Beliefs> const& p : problem.type.plans()) {
-    auto const s = standing_for(problem, p, plan_phase::entering);
-    if (s.valid && (!best.valid || s.utility > best.utility)) best = s;
-  }
-  best.hysteresis = 0;
-  return best;
-}
-
-}  // namespace detail
-
-/// As `reallocate` below, where `best` is what `best_allocation` found for the same problem.
+/// As `reallocate` below, where `best` is what `best_allocation` found, and `now` the running allocation.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] reallocation<V> reallocate(problem<V, Beliefs> const& problem, hysteresis h,
-                                         result<solution<V>, no_allocation<V>> best) {
+                                         result<solution<V>, no_allocation<V>> best, standing<V> now) {
   reallocation<V> next;
-  auto now = detail::standing_of(problem);
   auto running = allocation_atoms<V>::from_ascending({problem.current.begin(), problem.current.end()});
   next.proved = best ? best->proved : best.error().proved();
   next.gap = best ? best->gap : 0;
@@ -108,8 +60,8 @@ template <vocabulary V, class Beliefs>
   if (!best) next.refusals = best.error().plans;
   if (now.valid && best) next.gain = to_double({best->objective.units - now.utility.units});
 
-  bool const stays = now.valid && (!best || !detail::beats(best->objective, now.utility,
-                                                           detail::margin_of(h, now.hysteresis, now.utility)));
+  bool const stays =
+      now.valid && (!best || !beats(best->objective, now.utility, margin_of(h, now.hysteresis, now.utility)));
   if (stays) {
     next.atoms = std::move(running);
     next.plan = now.plan;
@@ -134,6 +86,15 @@ template <vocabulary V, class Beliefs>
   return next;
 }
 
+}  // namespace detail
+
+/// As `reallocate` below, where `best` is what `best_allocation` found for the same problem.
+template <vocabulary V, class Beliefs>
+[[nodiscard]] reallocation<V> reallocate(problem<V, Beliefs> const& problem, hysteresis h,
+                                         result<solution<V>, no_allocation<V>> best) {
+  return detail::reallocate(problem, h, std::move(best), detail::standing_of(problem));
+}
+
 /// Decides whether the running allocation, `problem::current`, stays, and if not, which one follows it. Reads one's own
 /// beliefs only.
 ///
@@ -147,11 +108,14 @@ template <vocabulary V, class Beliefs>
 /// Laws: event = difference(current, atoms), so it is applicable to the running allocation. Calling again with `atoms` as
 /// the running allocation and unchanged beliefs gives the empty event, unless `atoms` entered a plan whose precondition is
 /// `entry_only`: that one may move on to an allocation that could not have been entered.
-/// Complexity: that of `best_allocation`, and one evaluation of the running allocation.
+/// Complexity: that of `best_allocation`, and one evaluation of the running allocation, unless U_p is a sum over agents: then
+/// the search has asked for all its terms.
 template <vocabulary V, class Beliefs>
 [[nodiscard]] reallocation<V> reallocate(problem<V, Beliefs> const& problem, hysteresis h, workspace& work,
                                          search_budget budget = {}) {
-  return reallocate(problem, h, best_allocation(problem, work, budget));
+  auto best = best_allocation(problem, work, budget);
+  auto now = detail::standing_of(problem, detail::workspace_access::open(work));
+  return detail::reallocate(problem, h, std::move(best), std::move(now));
 }
 
 }  // namespace rota

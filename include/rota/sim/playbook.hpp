@@ -73,7 +73,10 @@ struct playbook {
 [[nodiscard]] constexpr double pay(micrometres d, std::int64_t divisor) noexcept {
   constexpr std::int64_t unit = 1 << 20;
   auto const units = (std::max<micrometres>)(field_diagonal - d, 0) * unit / metres(1);
-  return static_cast<double>(divisor == 1 ? units : units / divisor) / unit;
+  auto const paid = divisor == 1    ? units
+                    : divisor == 16 ? units / 16
+                                    : units / divisor;  // the defaults take no division
+  return static_cast<double>(paid) / unit;
 }
 
 /// The utility that `pay_options` describes. The robots are called 1, 2, 3, …

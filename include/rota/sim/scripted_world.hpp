@@ -17,7 +17,11 @@ class scripted_world {
 public:
   /// @pre 2 ≤ robots ≤ max_robots
   scripted_world(scenario s, std::size_t robots, std::uint64_t seed, world_options const& options = {})
-      : scenario_(s), options_(options), engine_(engine_for(seed, stream::world, 0)), bodies_(robots) {
+      : scenario_(s),
+        options_(options),
+        ticks_per_second_(seconds(1).ns / options.tick.ns),
+        engine_(engine_for(seed, stream::world, 0)),
+        bodies_(robots) {
     ROTA_ASSERT(robots >= 2 && robots <= max_robots);
     state_.robots.resize(robots);
     if (scenario_ == scenario::hour) {
@@ -49,7 +53,7 @@ private:
 
   [[nodiscard]] std::size_t robots() const noexcept { return bodies_.size(); }
   [[nodiscard]] micrometres draw(extent e) { return uniform(engine_, e.low, e.high); }
-  [[nodiscard]] micrometres per_tick(double speed) const { return metres(speed) / (seconds(1).ns / options_.tick.ns); }
+  [[nodiscard]] micrometres per_tick(double speed) const { return metres(speed) / ticks_per_second_; }
   [[nodiscard]] point direction() {
     for (;;) {
       point const v{uniform(engine_, -metres(1), metres(1)), uniform(engine_, -metres(1), metres(1))};
@@ -258,6 +262,7 @@ private:
 
   scenario scenario_;
   world_options options_;
+  std::int64_t ticks_per_second_;
   random_engine engine_;
   std::vector<body> bodies_;
   world_state state_;

@@ -24,16 +24,17 @@ namespace rota::detail {
   return checked_add(total, term.value()) ? utility_fault::none : utility_fault::out_of_range;
 }
 
-/// weight·f() in fixed point, where f calls a function of the user's.
-template <class F>
-[[nodiscard]] result<fixed_utility, utility_fault> ask(double weight, F&& f) {
-  auto const value = guarded(f);
-  if (!value) return refused{utility_fault::threw};
-  if constexpr (std::is_floating_point_v<std::invoke_result_t<F&>>) {
-    return weigh(weight, *value);
+/// weight·f(…) in fixed point, where f is a function of the user's.
+template <class R, class... Parameters>
+[[nodiscard]] result<fixed_utility, utility_fault> ask(double weight, function<R(Parameters...)> const& f,
+                                                       std::type_identity_t<Parameters>... p) {
+  R value{};
+  if (!guarded([&] { return f.answer(value, p...), true; })) return refused{utility_fault::threw};
+  if constexpr (std::is_floating_point_v<R>) {
+    return weigh(weight, value);
   } else {
-    if (!*value) return refused{utility_fault::forbidden_pair};
-    return weigh(weight, **value);
+    if (!value) return refused{utility_fault::forbidden_pair};
+    return weigh(weight, *value);
   }
 }
 
@@ -48,10 +49,10 @@ template <vocabulary V, class Beliefs, class Part>
     bool const stays = std::binary_search(problem.current.begin(), problem.current.end(), x);
     return weigh(weight, stays ? 1 : 0);
   } else if constexpr (std::same_as<Part, additive_utility<V, Beliefs>>) {
-    return ask(weight, [&] { return part(x.agent, x.task, problem.beliefs); });
+    return ask(weight, part, x.agent, x.task, problem.beliefs);
   } else if constexpr (std::same_as<Part, pairwise_utility<V, Beliefs>>) {
     if (!part.alone) return fixed_utility{};
-    return ask(weight, [&] { return part.alone(x.agent, x.task, problem.beliefs); });
+    return ask(weight, part.alone, x.agent, x.task, problem.beliefs);
   } else {
     return fixed_utility{};
   }
@@ -62,7 +63,7 @@ template <vocabulary V, class Beliefs>
 [[nodiscard]] result<fixed_utility, utility_fault> term_of(problem<V, Beliefs> const& problem, double weight,
                                                            pairwise_utility<V, Beliefs> const& part, in<V> const& x,
                                                            in<V> const& y) {
-  return ask(weight, [&] { return part.together(x.agent, x.task, y.agent, y.task, problem.beliefs); });
+  return ask(weight, part.together, x.agent, x.task, y.agent, y.task, problem.beliefs);
 }
 
 /// How much a general part adds to U_p.
@@ -70,7 +71,7 @@ template <vocabulary V, class Beliefs>
 [[nodiscard]] result<fixed_utility, utility_fault> value_of(problem<V, Beliefs> const& problem, double weight,
                                                             general_utility<V, Beliefs> const& part,
                                                             allocation_view<V> atoms) {
-  return ask(weight, [&] { return part.value(problem.beliefs, atoms); });
+  return ask(weight, part.value, problem.beliefs, atoms);
 }
 
 }  // namespace rota::detail

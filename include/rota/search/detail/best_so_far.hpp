@@ -59,8 +59,11 @@ public:
                                       : to_double({bound_}) - to_double(s.objective);
     auto const tasks = problem.type.find(s.plan)->tasks();
     small_vector<in<V>, 8> atoms;
-    for (std::size_t a = 0; a < assignment_.size(); ++a)
-      if (assignment_[a] < tasks.size()) atoms.push_back({problem.participants[a], s.plan, tasks[assignment_[a]].task});
+    atoms.append(assignment_.size(), [&](in<V>* out) {
+      for (std::size_t a = 0; a < assignment_.size(); ++a)
+        if (assignment_[a] < tasks.size()) *out++ = {problem.participants[a], s.plan, tasks[assignment_[a]].task};
+      return out;
+    });
     s.atoms = allocation_atoms<V>::from_ascending(std::move(atoms));
     return std::move(s);
   }

@@ -64,8 +64,7 @@ public:
     if (view_.coupled()) add_others(total, assignment, atoms, a.fault);
     if (a.fault) return a;
     auto const utility = utility_of(assignment, in_units(total.units));
-    constexpr auto most = static_cast<std::int64_t>(max_total_utility * fixed_utility::units_per_one);
-    if (utility > most || utility < -most) {
+    if (utility > most_total_units || utility < -most_total_units) {
       a.fault = utility_refusal<V>{utility_fault::out_of_range, {}, {}};
     } else if (utility < 0 && change_cost_ != 0) {
       a.negative_utility = utility;

@@ -25,6 +25,7 @@ struct plan_memory {
   dense::tie_rule ties;
   dense::buffer<dense::row_index> changed;  ///< rows that `flow` has not seen
   bool seen = false;                        ///< whether `flow` has seen all the others
+  bool up_to_date = false;                  ///< whether the last search of the plan wrote `units`
 
   dense::flow_solver flow;
   dense::flow_outcome alone;  ///< of `flow`, on `keys` and `bounds`
@@ -53,7 +54,6 @@ struct search_state {
   std::vector<dense::hidden<plan_memory>> plans;  ///< in the order of the plan type
   dense::tree_solver tree;
   dense::pair_solver pairwise;
-  dense::buffer<std::int64_t> row;       ///< the utilities of one agent
   dense::buffer<std::int64_t> most;      ///< see `completion_bound`
   dense::buffer<dense::row_index> twin;  ///< see `dense::tree_options`
   dense::buffer<dense::slot> now;        ///< see `plan_view::now`

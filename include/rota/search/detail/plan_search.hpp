@@ -23,7 +23,7 @@ template <vocabulary V, class Beliefs>
 class plan_search {
 public:
   plan_search(problem<V, Beliefs> const& problem, plan<V, Beliefs> const& p, search_state& state, plan_memory& memory)
-      : state_(state), memory_(memory), view_(problem, p, state.now), matrix_(view_, memory, state.row) {}
+      : state_(state), memory_(memory), view_(problem, p, state.now), matrix_(view_, memory) {}
 
   plan_outcome<V> run(search_budget const& budget, search_work& done) {
     auto out = search(budget, done);
@@ -33,6 +33,7 @@ public:
 
 private:
   plan_outcome<V> search(search_budget const& budget, search_work& done) {
+    memory_.up_to_date = false;
     if (auto const reason = write_bounds(view_, memory_)) return nothing_valid(*reason);
     if (auto const reason = matrix_.write()) return reason->proved() ? nothing_valid(*reason) : nothing_found(*reason);
     dense::instance in{
@@ -45,9 +46,17 @@ private:
       pairs_ = write_pairs(view_, memory_);
     }
     objective<V, Beliefs> const worth(view_, memory_, matrix_.change_cost(), pairs_);
-    auto const found = view_.coupled() ? search_pairs(view_, memory_, state_.pairwise, worth, pairs_, budget, done)
-                                       : accept_alone(alone, worth);
-    return found ? *found : search_tree(view_, memory_, state_, in, alone, worth, rejected_, budget, done);
+    if (view_.coupled()) {
+      if (auto found = search_pairs(view_, memory_, state_.pairwise, worth, pairs_, budget, done))
+        return *std::move(found);
+    } else {
+      auto const units = worth.in_units(alone.value);
+      if (alone.proved() && !worth.changes_cost() && units < 0)
+        return nothing_valid(negative_refusal<V>(view_.plan.id(), units));
+      if (accepts(alone, worth, units))
+        return worth.found(alone.assignment, units, worth.in_units(alone.bound), alone.proved());
+    }
+    return search_tree(view_, memory_, state_, in, alone, worth, rejected_, budget, done);
   }
 
   /// The flow optimum, from the memory if it still holds.
@@ -71,15 +80,12 @@ private:
     return r;
   }
 
-  /// The flow optimum as the best allocation, where U_p is a sum over agents; nothing if it is not valid.
-  std::optional<plan_outcome<V>> accept_alone(dense::flow_outcome const& alone, objective<V, Beliefs> const& worth) {
-    auto const units = worth.in_units(alone.value);
-    if (alone.proved() && !worth.changes_cost() && units < 0)
-      return nothing_valid(negative_refusal<V>(view_.plan.id(), units));
+  /// Whether the flow optimum, worth so many units, is valid, where U_p is a sum over agents.
+  bool accepts(dense::flow_outcome const& alone, objective<V, Beliefs> const& worth, std::int64_t units) {
+    if (worth.is_the_sum()) return units >= 0;
     auto const a = worth(alone.assignment, alone.value);
     rejected_.note(a);
-    if (!a.worth || worth.utility_of(alone.assignment, units) < 0) return std::nullopt;
-    return worth.found(alone.assignment, units, worth.in_units(alone.bound), alone.proved());
+    return a.worth && worth.utility_of(alone.assignment, units) >= 0;
   }
 
   search_state& state_;

@@ -26,8 +26,12 @@ public:
             dense::buffer<dense::slot>& now)
       : problem(p), plan(candidate), now_(now) {
     now.assign(agents(), idle());
-    if (!problem.current.empty())
-      for (std::size_t a = 0; a < agents(); ++a) now[a] = slot_now(a);
+    auto atom = problem.current.begin();
+    auto const end = problem.current.end();
+    for (std::size_t a = 0; a < agents(); ++a) {
+      while (atom != end && atom->agent < problem.participants[a]) ++atom;
+      if (atom != end && atom->agent == problem.participants[a]) now[a] = slot_of(*atom);
+    }
     bool const runs = std::any_of(problem.current.begin(), problem.current.end(),
                                   [&](in<V> const& x) { return x.plan == plan.id(); });
     conditional_ = plan.precondition() && !(runs && plan.scope() == precondition_scope::entry_only);
@@ -86,14 +90,9 @@ public:
   }
 
 private:
-  [[nodiscard]] dense::slot slot_now(std::size_t a) const {
-    agent const who = problem.participants[a];
-    auto const& current = problem.current;
-    auto const x =
-        std::lower_bound(current.begin(), current.end(), who, [](in<V> const& y, agent key) { return y.agent < key; });
-    if (x == current.end() || !(x->agent == who)) return idle();
-    if (!(x->plan == plan.id())) return dense::no_slot;
-    auto const* const task = plan.find(x->task);
+  [[nodiscard]] dense::slot slot_of(in<V> const& x) const {
+    if (!(x.plan == plan.id())) return dense::no_slot;
+    auto const* const task = plan.find(x.task);
     return task == nullptr ? dense::no_slot : static_cast<dense::slot>(task - plan.tasks().data());
   }
 

@@ -19,9 +19,8 @@ namespace rota::detail {
 template <vocabulary V, class Beliefs>
 class utility_matrix {
 public:
-  /// `row` is a buffer to use. @pre `write_bounds` has written the bounds of `memory`
-  utility_matrix(plan_view<V, Beliefs> const& view, plan_memory& memory, dense::buffer<std::int64_t>& row)
-      : view_(view), memory_(memory), row_(row) {}
+  /// @pre `write_bounds` has written the bounds of `memory`
+  utility_matrix(plan_view<V, Beliefs> const& view, plan_memory& memory) : view_(view), memory_(memory) {}
 
   /// @return why the plan has no valid allocation, if the matrix shows it at once
   [[nodiscard]] std::optional<plan_refusal<V>> write() {
@@ -41,16 +40,11 @@ public:
       m.keys.resize(n * slot_count);
     }
     m.changed.clear();
-    row_.resize(slot_count);
     std::uint64_t greatest = 0;
     std::size_t greatest_at = 0;
-    for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t a = 0; a < n; ++a)
       if (auto const magnitude = write_row(a); magnitude > greatest) greatest = magnitude, greatest_at = a;
-      auto* const old = m.units.data() + a * slot_count;
-      if (std::equal(row_.begin(), row_.end(), old)) continue;
-      std::copy(row_.begin(), row_.end(), old);
-      m.changed.push_back(static_cast<dense::row_index>(a));
-    }
+    m.up_to_date = true;
     if (!m.changed.empty()) m.forget();
     if (!dense::fits(n, slot_count, greatest)) {
       m.forget();
@@ -81,33 +75,47 @@ private:
     return r;
   }
 
-  /// One agent's utilities into row_. @return the greatest magnitude, change cost included
+  /// One agent's utilities into its row, and notes it if that changes. @return the greatest magnitude, change cost included
   std::uint64_t write_row(std::size_t a) {
     auto const tasks = view_.plan.tasks();
     auto const who = view_.problem.participants[a];
     ROTA_ASSERT(a == 0 || view_.problem.participants[a - 1] < who);
     auto const* const role = view_.problem.members.role_of(who);
+    auto const* const bounds = memory_.bounds.data();
     auto const now = view_.now()[a];
+    auto* const row = memory_.units.data() + a * (tasks.size() + 1);
     std::uint64_t greatest = 0;
+    bool changed = false;
     auto const write = [&](std::size_t s, std::int64_t units) {
+      changed |= row[s] != units;
+      row[s] = units;
+    };
+    auto const offer = [&, cost = cost_](std::size_t s, std::int64_t units) {
       // With the cost, so that sums fit both with and without it: what an agent gains by moving may be all its cost.
       auto const magnitude = units < 0 ? 0 - static_cast<std::uint64_t>(units) : static_cast<std::uint64_t>(units);
-      greatest = (std::max)(greatest, magnitude + static_cast<std::uint64_t>(cost_));
-      if (magnitude > static_cast<std::uint64_t>(dense::max_total)) return;  // stays absent: the plan is refused
-      row_[s] = s != now ? units - cost_ : units;
+      greatest = (std::max)(greatest, magnitude + static_cast<std::uint64_t>(cost));
+      bool const beyond = magnitude > static_cast<std::uint64_t>(dense::max_total);  // then the plan is refused
+      write(s, beyond ? dense::absent : s != now ? units - cost : units);
     };
     for (std::size_t s = 0; s < tasks.size(); ++s) {
-      row_[s] = dense::absent;
-      if (role == nullptr || memory_.bounds[s].upper == 0 || !role->permits(tasks[s].task)) continue;
+      if (role == nullptr || bounds[s].upper == 0 || !role->permits(tasks[s].task)) {
+        write(s, dense::absent);
+        continue;
+      }
       in<V> const x{who, view_.plan.id(), tasks[s].task};
       if (auto const units = rate(view_.problem, view_.plan, x)) {
-        write(s, units.value().units);
-      } else if (units.error() != utility_fault::forbidden_pair && !ignored_) {
-        ignored_ = utility_refusal<V>{units.error(), x, std::nullopt};
+        offer(s, units.value().units);
+      } else {
+        write(s, dense::absent);
+        if (units.error() != utility_fault::forbidden_pair && !ignored_)
+          ignored_ = utility_refusal<V>{units.error(), x, std::nullopt};
       }
     }
-    row_[tasks.size()] = dense::absent;
-    if (memory_.bounds[tasks.size()].upper > 0) write(tasks.size(), 0);
+    if (bounds[tasks.size()].upper > 0)
+      offer(tasks.size(), 0);
+    else
+      write(tasks.size(), dense::absent);
+    if (changed) memory_.changed.push_back(static_cast<dense::row_index>(a));
     return greatest;
   }
 
@@ -156,7 +164,6 @@ private:
 
   plan_view<V, Beliefs> const& view_;
   plan_memory& memory_;
-  dense::buffer<std::int64_t>& row_;
   std::int64_t cost_ = 0;
   std::optional<utility_refusal<V>> ignored_{};
 };
