@@ -122,4 +122,23 @@ struct campaign_options {
 [[nodiscard]] campaign_options default_campaign();
 [[nodiscard]] outcome run_campaign(campaign_options const& o);
 
+struct sweep_options {
+  std::string table;  ///< empty: none; what is not named below is as the table says
+  std::vector<std::string> systems, troubles, reigns, stamps;
+  std::vector<double> losses;
+  std::vector<std::uint64_t> robots;
+  std::vector<std::int64_t> periods;  ///< ms
+  std::vector<std::uint32_t> cycles;
+  double minutes = 10;
+  std::uint64_t seeds = 10;
+  std::uint64_t seed = 1;
+  std::string rows;      ///< the file that keeps what was played; empty: none
+  std::string chart;     ///< the picture to write; empty: none
+  std::size_t jobs = 0;  ///< threads; 0: as many as there are cores
+  bool json = false;
+};
+[[nodiscard]] outcome run_sweep(sweep_options const& o);
+/// The tables that it knows.
+[[nodiscard]] std::vector<std::string> sweep_table_names();
+
 }  // namespace rota::cli

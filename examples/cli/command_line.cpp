@@ -1,5 +1,7 @@
 #include "command.hpp"
 
+#include <rota/sim/closed/ways.hpp>
+#include <rota/sim/closed/world.hpp>
 #include <rota/sim/scenario.hpp>
 #include <rota/sim/world.hpp>
 
@@ -223,6 +225,55 @@ void add_campaign(CLI::App& program, command& chosen) {
              "Exit status: 0 every promise was kept, 1 one was broken, 2 misuse.");
 }
 
+void add_sweep(CLI::App& program, command& chosen) {
+  auto const o = std::make_shared<sweep_options>();
+  CLI::App& sub =
+      add(program, chosen, o, run_sweep, "sweep",
+          "Ways of coordinating side by side, in a world that decisions move, over many settings and seeds");
+  auto const words = [](auto const& all) {
+    std::vector<std::string> out;
+    for (auto const x : all) out.emplace_back(to_string(x));
+    return out;
+  };
+  auto const list = [&](std::string const& name, auto& values, std::string const& what) {
+    return sub.add_option(name, values, what + ", separated by commas")->delimiter(',');
+  };
+  sub.add_option("--table", o->table, "a table of docs/evaluation.md; the other options then change it")
+      ->check(CLI::IsMember(sweep_table_names()));
+  list("--system", o->systems, "who decides how")->check(CLI::IsMember(words(sim::closed::all_ways)));
+  list("--trouble", o->troubles, "what goes wrong with the robots")
+      ->check(CLI::IsMember(words(sim::closed::all_troubles)));
+  list("--loss", o->losses, "probabilities that a message is lost")
+      ->check(within(0.0, 1.0, "a probability from 0 to 1"));
+  list("--robots", o->robots, "sizes of the team")
+      ->check(within(std::uint64_t{2}, std::uint64_t{sim::max_robots},
+                     "a whole number from 2 to " + std::to_string(sim::max_robots)));
+  list("--period", o->periods, "ms between messages; news a tenth of that after the last one")
+      ->check(within(20, 1000, "a whole number from 20 to 1000"));
+  list("--cycles", o->cycles, "n, of rota")->check(within(1, 1000, "a whole number from 1 to 1000"));
+  list("--reign", o->reigns, "how long rota's leaders reign")->check(CLI::IsMember({"fixed", "renewed"}));
+  list("--stamp", o->stamps, "who of rota's claimants leads")->check(CLI::IsMember({"id"}));
+  sub.add_option("--minutes", o->minutes, "simulated time of each game")
+      ->check(within(0.01, 1440.0, "a number of minutes from 0.01 to 1440"))
+      ->capture_default_str();
+  sub.add_option("--seeds", o->seeds, "so many games of each setting")
+      ->check(within(std::uint64_t{1}, std::uint64_t{10'000}, "a whole number from 1 to 10000"))
+      ->capture_default_str();
+  sub.add_option("--seed", o->seed, "of the first game; the next has the next seed")
+      ->check(check_seed)
+      ->capture_default_str();
+  sub.add_option("--rows", o->rows, "append each game to this file (JSON Lines), and play none that it has")
+      ->check(check_not_empty);
+  sub.add_option("--chart", o->chart, "write an SVG of reaction time against time without exactly one attacker")
+      ->check(check_not_empty);
+  sub.add_option("--jobs", o->jobs, "so many games at once; by default as many as there are cores")
+      ->check(within(std::size_t{1}, std::size_t{1024}, "a whole number from 1 to 1024"));
+  sub.add_flag("--json", o->json, "print JSON");
+  sub.footer(
+      "What is printed does not depend on --jobs. A sweep that was interrupted goes on where it was stopped, if it is\n"
+      "called again with the same --rows: games that are there whole are not played again.");
+}
+
 }  // namespace
 
 command parse_command_line(int argc, char** argv) {
@@ -238,6 +289,7 @@ command parse_command_line(int argc, char** argv) {
   add_timing(program, chosen);
   add_budget(program, chosen);
   add_campaign(program, chosen);
+  add_sweep(program, chosen);
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& e) {

@@ -402,4 +402,87 @@ std::string as_json(std::vector<fault_row> const& rows, std::uint64_t runs, std:
   return out.dump(2) + '\n';
 }
 
+namespace {
+
+/// What a cell consists of, for writing and for reading: `field(key, member)`.
+template <class Cell, class Field>
+void each_field(Cell& c, Field const& field) {
+  field("trouble", c.trouble);
+  field("robots", c.robots);
+  field("loss", c.loss);
+  field("period_ms", c.period_ms);
+  field("system", c.system);
+  field("cycles", c.cycles);
+  field("reign", c.reign);
+  field("stamp", c.stamp);
+  field("minutes", c.minutes);
+}
+
+}  // namespace
+
+std::string as_json(sweep_table const& t) {
+  auto list = ordered_json::array();
+  for (auto const& l : t.lines) {
+    ordered_json line;
+    each_field(l.cell, [&](char const* key, auto const& value) { line[key] = value; });
+    for (std::size_t m = 0; m < quantities; ++m) {
+      auto const& e = l.figures[m];
+      auto& figure = line[std::string(name_of(static_cast<quantity>(m)))];
+      figure["mean"] = e.games > 0 ? ordered_json(e.mean) : ordered_json();
+      figure["within"] = or_null(e.within);
+      figure["games"] = e.games;
+    }
+    list.push_back(std::move(line));
+  }
+  ordered_json out;
+  out["table"] = t.name.empty() ? ordered_json() : ordered_json(t.name);
+  out["plan"] = t.plan;
+  out["lines"] = std::move(list);
+  out["seeds"] = t.seeds;
+  out["seed"] = t.seed;
+  return out.dump(2) + '\n';
+}
+
+std::string_view row_start() { return R"({"rota_sweep":1,)"; }
+
+std::string as_line(sweep_row const& row) {
+  ordered_json out;
+  out["rota_sweep"] = 1;
+  out["version"] = row.version;
+  out["plan"] = row.plan;
+  each_field(row.cell, [&](char const* key, auto const& value) { out[key] = value; });
+  out["seed"] = row.seed;
+  for (std::size_t m = 0; m < quantities; ++m)
+    out[std::string(name_of(static_cast<quantity>(m)))] = or_null(row.figures[m]);
+  return out.dump();
+}
+
+std::optional<sweep_row> read_row(std::string const& line) {
+  if (!line.starts_with(row_start())) return std::nullopt;
+  auto const tree = nlohmann::json::parse(line, nullptr, false);
+  if (!tree.is_object() || tree.size() != 13 + quantities) return std::nullopt;
+  sweep_row row;
+  bool sound = true;
+  auto const read = [&](char const* key, auto& into) {
+    using type = std::remove_cvref_t<decltype(into)>;
+    auto const at = tree.find(key);
+    sound = sound && at != tree.end() &&
+            (std::is_same_v<type, std::string> ? at->is_string()
+             : std::is_same_v<type, double>    ? at->is_number()
+                                               : at->is_number_unsigned());
+    if (sound) into = at->template get<type>();
+  };
+  read("version", row.version);
+  read("plan", row.plan);
+  each_field(row.cell, read);
+  read("seed", row.seed);
+  for (std::size_t m = 0; m < quantities && sound; ++m) {
+    auto const at = tree.find(std::string(name_of(static_cast<quantity>(m))));
+    sound = at != tree.end() && (at->is_null() || at->is_number());
+    if (sound && at->is_number()) row.figures[m] = at->get<double>();
+  }
+  if (!sound) return std::nullopt;
+  return row;
+}
+
 }  // namespace rota::cli

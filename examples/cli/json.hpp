@@ -3,6 +3,7 @@
 #include "budget.hpp"
 #include "campaign.hpp"
 #include "monitors.hpp"
+#include "sweep.hpp"
 #include <rota/adapters/alica/model.hpp>
 #include <rota/search/limits.hpp>
 #include <rota/sim/fwd.hpp>
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -90,5 +92,15 @@ struct named_allocation {
 
 /// How long a team takes to overcome faults, a row each.
 [[nodiscard]] std::string as_json(std::vector<fault_row> const& rows, std::uint64_t runs, std::uint64_t seed);
+
+/// A sweep, a line each.
+[[nodiscard]] std::string as_json(sweep_table const& t);
+
+/// One game as one line, without its end.
+[[nodiscard]] std::string as_line(sweep_row const& row);
+/// Reads such a line; nothing if it is none.
+[[nodiscard]] std::optional<sweep_row> read_row(std::string const& line);
+/// How each such line begins.
+[[nodiscard]] std::string_view row_start();
 
 }  // namespace rota::cli

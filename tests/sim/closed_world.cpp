@@ -152,6 +152,25 @@ TEST(closed_tally, a_change_that_nobody_answers_is_missed_and_who_is_off_counts_
   EXPECT_EQ(f.wrong, milliseconds(200)) << "while robot 2 is on, and nearer";
 }
 
+TEST(closed_tally, reigns_of_300_ms_count_and_are_right_if_nobody_else_is_clearly_nearer) {
+  tally t(3, at(0));
+  auto const one = attack_by({1});
+  for (std::size_t i = 0; i < 3; ++i) t.note(i, &one, i == 0);
+  t.look(three(8, 1, 1.4), false, false);
+  t.note_reign(0, true, 0);
+  t.note_reign(1, true, 1);
+  t.note_reign(2, true, std::nullopt);
+  t.pass_to(at(299));
+  t.note_reign(1, false, 1);
+  t.pass_to(at(300));
+  t.note_reign(1, true, 2);
+  t.pass_to(at(400));
+  t.note_reign(0, true, 1);  // it goes on, with another attacker
+  auto const f = t.finish(at(700));
+  EXPECT_EQ(f.reigns, 3u);
+  EXPECT_EQ(f.right, 1u) << "the second of robot 2";
+}
+
 /// A coordinator for tests: everybody attacks, whatever it sees, and says nothing.
 class reckless {
 public:

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace rota::sim::closed {
@@ -24,6 +25,8 @@ struct game_figures {
   std::uint64_t missed = 0;
   std::uint64_t won = 0;  ///< balls
   duration free{};        ///< so long they lay free, together
+  std::uint64_t reigns = 0;
+  std::uint64_t right = 0;  ///< of these
   std::uint64_t messages = 0;
   std::uint64_t bytes = 0;
 
@@ -59,6 +62,8 @@ struct game_figures {
 /// * wrong: exactly one robot attacks, and another is nearer to the true ball by more than `clearly`.
 /// * reaction: the ball is kicked, and then one robot is nearer to it than all others by more than `clearly`, and does not
 ///   attack; until it does. Missed, if the ball is reached by another or kicked again before.
+/// * reign: a robot leads for 300 ms or longer. Right: when it began, no robot was clearly nearer to the true ball than the one
+///   that it had attack.
 /// * time to the ball: how long balls lie free, divided by how many of ours have reached.
 class tally {
 public:
@@ -84,10 +89,23 @@ public:
     mind& m = minds_[i];
     bool const on = believed != nullptr;
     if (m.on == on && m.attacks == attacks && (!on || m.believed == *believed)) return;
-    m = {on ? *believed : allocation_atoms<names>{}, on, attacks};
+    m.believed = on ? *believed : allocation_atoms<names>{};
+    m.on = on;
+    m.attacks = attacks;
+    if (!on) m.reign.reset();
     stale_ = true;
     if (awaited_ && awaited_->robot == i && !on) awaited_.reset();
     if (awaited_ && awaited_->robot == i && attacks) react();
+  }
+  /// Whether robot i leads from now on, and whom it has attack.
+  void note_reign(std::size_t i, bool leads, std::optional<std::size_t> attacker) {
+    auto& r = minds_[i].reign;
+    if (r.has_value() == leads) return;
+    if (leads) {
+      r = reign{now_, attacker && !clearly_wrong(*attacker)};
+    } else {
+      count(*std::exchange(r, std::nullopt));
+    }
   }
   /// The world has moved; `kicked`: so has the ball. `won`: one of ours has got it.
   void look(world_state const& truth, bool kicked, bool won) {
@@ -112,15 +130,22 @@ public:
   [[nodiscard]] game_figures finish(instant end) {
     pass_to(end);
     if (episode_) f_.episodes.add((conflict_ ? end : agreed_) - *episode_);
+    for (mind const& m : minds_)
+      if (m.reign) count(*m.reign);
     f_.measured = end - begin_;
     return f_;
   }
 
 private:
+  struct reign {
+    instant began{};
+    bool right = false;
+  };
   struct mind {
     allocation_atoms<names> believed;
     bool on = true;
     bool attacks = false;
+    std::optional<closed::tally::reign> reign;
   };
   struct awaited {
     std::size_t robot = 0;
@@ -131,6 +156,17 @@ private:
     for (std::size_t j = 0; j < minds_.size(); ++j)
       if (j != i && minds_[j].on && distances_[j] <= distances_[i] + clearly) return false;
     return true;
+  }
+  /// Whether another robot is clearly nearer.
+  [[nodiscard]] bool clearly_wrong(std::size_t i) const {
+    for (std::size_t j = 0; j < distances_.size(); ++j)
+      if (minds_[j].on && distances_[j] + clearly < distances_[i]) return true;
+    return false;
+  }
+  void count(reign const& r) {
+    if (r.began < begin_ || now_ - r.began < calm) return;
+    ++f_.reigns;
+    f_.right += r.right ? 1 : 0;
   }
   void react() {
     if (awaited_->since >= begin_) {
@@ -153,9 +189,7 @@ private:
       first = &m;
       if (m.attacks) ++attackers_, who = i;
     }
-    wrong_ = false;
-    for (std::size_t i = 0; i < distances_.size() && attackers_ == 1; ++i)
-      if (minds_[i].on && distances_[i] + clearly < distances_[who]) wrong_ = true;
+    wrong_ = attackers_ == 1 && !distances_.empty() && clearly_wrong(who);
     if (conflict == conflict_) return;
     conflict_ = conflict;
     if (!conflict) {

@@ -202,7 +202,14 @@ private:
       world_.send(i, r.stood + (target_of(book_, part.front(), r.seen) - r.seen.robots[i]), attacks);
     }
     tally_.note(i, &believed, attacks);
+    if constexpr (requires { r.mind->reigns(); }) tally_.note_reign(i, r.mind->reigns(), attacker_of(believed));
     speak(i);
+  }
+
+  [[nodiscard]] std::optional<std::size_t> attacker_of(allocation_atoms<names> const& atoms) const {
+    for (in<names> const& x : atoms)
+      if (book_.attacks(x)) return x.agent.value - 1;
+    return std::nullopt;
   }
 
   void speak(std::size_t i) {

@@ -4,6 +4,7 @@
 #include <rota/team/monitors/literal.hpp>
 #include <rota/team/wire.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -25,6 +26,8 @@ public:
   [[nodiscard]] std::optional<message> next_message(instant now) { return mind_.next_message(now); }
   [[nodiscard]] instant next_due() const { return mind_.next_due(); }
   [[nodiscard]] allocation_atoms<names> const& believed() const { return mind_.believes(book_->type.id())->atoms(); }
+  /// Whether it leads, so that a game counts reigns.
+  [[nodiscard]] bool reigns() const { return mind_.rule(book_->type.id())->leading(); }
   [[nodiscard]] static std::size_t bytes(message const& m) {
     std::array<std::byte, 512> buffer{};
     return encode(m, buffer).value();
