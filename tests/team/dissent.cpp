@@ -213,6 +213,16 @@ TEST_F(dissent, who_sees_nothing_valid_abstains_also_under_authority) {
   EXPECT_NE(stands(a, start + milliseconds(100)), stance::abstains);
 }
 
+TEST_F(dissent, who_enters_anew_has_not_judged_yet_and_does_not_abstain) {
+  auto a = in_play(1);
+  view none;
+  none.attack.fill(-100);
+  (void)think(a, none, start);
+  a.leave(play_id);
+  a.enter(play, start + milliseconds(50));
+  EXPECT_EQ(stands(a, start + milliseconds(100)), stance::none);
+}
+
 TEST_F(dissent, who_abstains_is_given_no_task_as_long_as_others_can_take_them_all) {
   auto a = in_play(1);
   a.receive(says_so(2, 1, std::nullopt, stance::abstains), start);

@@ -91,11 +91,11 @@ public:
   [[nodiscard]] bool anybody(rota::stance s) const noexcept {
     return std::any_of(records_.begin(), records_.end(), [&](record const& r) { return r.stance == s; });
   }
-  /// The participants but those who abstain, ascending; `self` is one of them if it takes part. O(n).
-  [[nodiscard]] small_vector<agent_id, 8> willing(agent_id self) const {
+  /// The participants but those who have said that they abstain, ascending. O(n).
+  [[nodiscard]] small_vector<agent_id, 8> willing() const {
     small_vector<agent_id, 8> all;
     for (std::size_t i = 0; i < who_.size(); ++i)
-      if (who_[i] == self || records_[i].stance != rota::stance::abstains) all.push_back(who_[i]);
+      if (records_[i].stance != rota::stance::abstains) all.push_back(who_[i]);
     return all;
   }
 

@@ -91,7 +91,8 @@ struct [[nodiscard]] decision {
   small_vector<typename V::plan_type, 4> executed;
 };
 
-/// Parameters of a robot; the defaults are the paper's.
+/// Parameters of a robot. The defaults are the paper's; but a reign is renewed while its cause lasts, which `renewals` = 0
+/// switches off.
 struct robot_options {
   std::uint32_t cycles = 4;           ///< after n subsequent cycles a conflict counts as lasting
   duration pending_age = seconds(1);  ///< see `monitor_options`
@@ -100,7 +101,7 @@ struct robot_options {
   duration max_reign = seconds(2);    ///< claims with more time left are refused; the same for all, at least `reign`
   /// A leader that hears dissent shortly before its reign ends renews it, so many times since the detection. With 0 nobody
   /// renews, and who obeys does not search for what it would do otherwise: the paper's reign of fixed length. The same for all.
-  std::uint32_t renewals = 30;
+  std::uint32_t renewals = 400;
   duration message_period = milliseconds(100);
   /// If positive, news is said this soon after the last message, and twice: the robot enters, leaves or leads, its
   /// reallocation changed anything, or (once) a message's fingerprint differs. `sparing` of team/budget.hpp sets it.

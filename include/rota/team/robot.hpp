@@ -344,7 +344,7 @@ private:
     problem<V, Beliefs> p{pt, members, beliefs, t.believed.participants(), idle};
     p.change_cost = options_.change_cost;
     if (t.believed.anybody(stance::abstains)) {
-      auto const willing = t.believed.willing(self_);
+      auto const willing = t.believed.willing();
       auto rest = here;
       for (in<V> const& x : here)
         if (!std::binary_search(willing.begin(), willing.end(), x.agent)) rest.erase(x);
