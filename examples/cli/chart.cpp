@@ -39,11 +39,18 @@ std::string line(double x, double y, double x2, double y2, std::string const& co
 
 constexpr double width = 430, height = 420, left = 60, top = 50, bottom = 60;
 
-std::string panel(sweep_table const& t, std::string const& trouble, double offset) {
-  scale const across{10, 1000, offset + left, offset + width - 20};
+std::string panel(sweep_table const& t, std::string const& trouble) {
+  double slowest = 0;
+  for (auto const& l : t.lines)
+    if (l.cell.trouble == trouble)
+      slowest = (std::max)(slowest, l.figures[static_cast<std::size_t>(quantity::reaction)].mean);
+  double most = 100;
+  while (most < slowest) most *= 10;
+  scale const across{10, most, left, width - 20};
   scale const up{1e-4, 1, height - bottom, top};
-  std::string out = text(offset + left, 24, "trouble: " + trouble, " font-weight=\"bold\"");
-  for (double const ms : {10, 20, 50, 100, 200, 500, 1000}) {
+  std::string out = text(left, top - 14, "trouble: " + trouble, " font-weight=\"bold\"");
+  for (double const ms : {10, 20, 30, 50, 100, 200, 300, 500, 1000, 2000, 3000, 5000, 10000}) {
+    if (ms > most) break;
     out += line(across.at(ms), up.from, across.at(ms), up.to, "#e4e4e4");
     out += text(across.at(ms), up.from + 16, number(ms), " text-anchor=\"middle\"");
   }
@@ -90,12 +97,17 @@ std::string as_chart(sweep_table const& t) {
   for (auto const& l : t.lines)
     if (std::find(troubles.begin(), troubles.end(), l.cell.trouble) == troubles.end())
       troubles.push_back(l.cell.trouble);
-  double const all = width * static_cast<double>(troubles.size());
+  auto const columns = (std::min<std::size_t>)(troubles.size(), 2);
+  auto const rows = (troubles.size() + 1) / 2;
   std::string out =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + whole(all) + " " + whole(height) +
-      "\" font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-  for (std::size_t i = 0; i < troubles.size(); ++i) out += panel(t, troubles[i], width * static_cast<double>(i));
-  out += text(left, 40, "full: time without exactly one attacker; hollow: … or with the wrong one; dash: 95 %");
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + whole(width * static_cast<double>(columns)) + " " +
+      whole(height * static_cast<double>(rows) + 20) +
+      "\" font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" "
+      "fill=\"white\"/>\n" +
+      text(left, 18, "full: time without exactly one attacker; hollow: … or with the wrong one; bar: 95 %");
+  for (std::size_t i = 0; i < troubles.size(); ++i)
+    out += "<g transform=\"translate(" + whole(width * static_cast<double>(i % 2)) + " " +
+           whole(20 + height * static_cast<double>(i / 2)) + ")\">\n" + panel(t, troubles[i]) + "</g>\n";
   return out + "</svg>\n";
 }
 

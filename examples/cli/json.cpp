@@ -452,7 +452,7 @@ std::string as_line(sweep_row const& row) {
   out["plan"] = row.plan;
   each_field(row.cell, [&](char const* key, auto const& value) { out[key] = value; });
   out["seed"] = row.seed;
-  for (std::size_t m = 0; m < quantities; ++m)
+  for (std::size_t m = 0; m < kept_quantities; ++m)
     out[std::string(name_of(static_cast<quantity>(m)))] = or_null(row.figures[m]);
   return out.dump();
 }
@@ -460,7 +460,7 @@ std::string as_line(sweep_row const& row) {
 std::optional<sweep_row> read_row(std::string const& line) {
   if (!line.starts_with(row_start())) return std::nullopt;
   auto const tree = nlohmann::json::parse(line, nullptr, false);
-  if (!tree.is_object() || tree.size() != 13 + quantities) return std::nullopt;
+  if (!tree.is_object() || tree.size() != 13 + kept_quantities) return std::nullopt;
   sweep_row row;
   bool sound = true;
   auto const read = [&](char const* key, auto& into) {
@@ -476,7 +476,7 @@ std::optional<sweep_row> read_row(std::string const& line) {
   read("plan", row.plan);
   each_field(row.cell, read);
   read("seed", row.seed);
-  for (std::size_t m = 0; m < quantities && sound; ++m) {
+  for (std::size_t m = 0; m < kept_quantities && sound; ++m) {
     auto const at = tree.find(std::string(name_of(static_cast<quantity>(m))));
     sound = at != tree.end() && (at->is_null() || at->is_number());
     if (sound && at->is_number()) row.figures[m] = at->get<double>();

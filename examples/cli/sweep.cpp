@@ -146,11 +146,11 @@ std::string places(double x, double unit) {
 }
 
 /// "12.3 ±0.4", in this unit, with as many places as make sense.
-std::string shown(estimate const& e, double unit) {
+std::string shown(estimate const& e, double unit, bool interval) {
   if (e.games == 0) return "-";
   double const x = e.mean * unit, w = e.within.value_or(0) * unit;
   double const digits = std::abs(x) >= 100 ? 1 : std::abs(x) >= 10 ? 10 : 100;
-  return places(x, digits) + (e.within ? " ±" + places(w, digits) : "");
+  return places(x, digits) + (interval && e.within ? " ±" + places(w, digits) : "");
 }
 
 /// The columns of a cell that differ between lines, besides the system.
@@ -189,20 +189,16 @@ std::string as_text(sweep_table const& t) {
     char const* name;
     quantity what;
     double unit;
+    bool interval;
   };
-  constexpr column columns[] = {{"not one %", quantity::not_one, 100},
-                                {"wrong %", quantity::wrong, 100},
-                                {"conflict %", quantity::conflict, 100},
-                                {"median", quantity::median, 1},
-                                {"p99", quantity::p99, 1},
-                                {"reaction", quantity::reaction, 1},
-                                {"p95", quantity::reaction_p95, 1},
-                                {"missed %", quantity::missed, 100},
-                                {"to the ball", quantity::to_ball, 0.001},
-                                {"reigns", quantity::reigns, 1},
-                                {"right %", quantity::right, 100},
-                                {"sent", quantity::messages, 1},
-                                {"bytes", quantity::bytes, 1}};
+  constexpr column columns[] = {
+      {"not right %", quantity::not_right, 100, true}, {"not one %", quantity::not_one, 100, true},
+      {"wrong %", quantity::wrong, 100, true},         {"conflict %", quantity::conflict, 100, true},
+      {"median", quantity::median, 1, false},          {"p99", quantity::p99, 1, false},
+      {"reaction", quantity::reaction, 1, true},       {"p95", quantity::reaction_p95, 1, false},
+      {"missed %", quantity::missed, 100, true},       {"to the ball", quantity::to_ball, 0.001, true},
+      {"reigns", quantity::reigns, 1, false},          {"right %", quantity::right, 100, false},
+      {"sent", quantity::messages, 1, false},          {"bytes", quantity::bytes, 1, false}};
   std::vector<std::array<std::string, 2 + std::size(axes) + quantities>> rows;
   auto const add = [&](auto const& fill) {
     auto& row = rows.emplace_back();
@@ -235,19 +231,21 @@ std::string as_text(sweep_table const& t) {
       last = l.cell.trouble;
       row[at++] = l.cell.system;
       for (auto const* a : shown_axes) row[at++] = a->text(l.cell);
-      for (auto const& c : columns) row[at++] = shown(l.figures[static_cast<std::size_t>(c.what)], c.unit);
+      for (auto const& c : columns) row[at++] = shown(l.figures[static_cast<std::size_t>(c.what)], c.unit, c.interval);
     });
   auto const minutes = t.lines.empty() ? 0 : t.lines.front().cell.minutes;
   return "A closed world, " + t.plan + ": " + fixed.substr(fixed.empty() ? 0 : 2) + "; " + counted(t.seeds, "game") +
          " of " + number(minutes) + " minutes a line, seeds from " + std::to_string(t.seed) + ".\n\n" + laid_out(rows) +
-         "\n  A mean ± half of its 95 % interval. not one: time without exactly one attacker. wrong: with one, and "
-         "another "
-         "is\n  nearer to the ball by more than 50 cm. conflict: two believe in different allocations. median, p99: ms "
-         "until a\n  conflict is resolved. reaction, p95: ms until the robot that is nearest after a kick attacks. "
-         "missed: "
-         "it never\n  did in time. to the ball: s that a ball lies free, for each that is reached. reigns: an hour, "
-         "and how "
-         "many had\n  the right one attack. sent, bytes: a second and robot.\n";
+         "\n  A mean ± half of its 95 % interval; --json has all intervals. not one: time without exactly one "
+         "attacker. "
+         "wrong: with\n  one, and another is nearer to the ball by more than 50 cm. not right: either. conflict: two "
+         "believe "
+         "in different\n  allocations; median, p99: ms until it is resolved. reaction, p95: ms until the robot that is "
+         "nearest "
+         "after a kick\n  attacks; missed: it did not in time. to the ball: s that a ball lies free, for each that is "
+         "reached. "
+         "reigns: an hour;\n  right: those in which the right one attacks. sent, bytes: messages and bytes a second "
+         "and robot.\n";
 }
 
 }  // namespace
@@ -337,6 +335,11 @@ outcome run_sweep(sweep_options const& o) {
   }
 
   sweep_table t{o.table, o.seed, o.seeds, plan_names(book), {}};
+  for (auto& r : rows) {
+    auto const of = [&](quantity q) -> auto& { return r.figures[static_cast<std::size_t>(q)]; };
+    if (of(quantity::not_one) && of(quantity::wrong))
+      of(quantity::not_right) = *of(quantity::not_one) + *of(quantity::wrong);
+  }
   for (std::size_t c = 0; c < cells.size(); ++c) {
     auto& line = t.lines.emplace_back(sweep_line{cells[c], {}});
     for (std::size_t m = 0; m < quantities; ++m) {

@@ -41,9 +41,12 @@ enum class quantity : unsigned char {
   reigns,    ///< an hour
   right,     ///< share of reigns
   messages,  ///< a second and robot
-  bytes
+  bytes,
+  not_right  ///< share of time without exactly one attacker, or with the wrong one: follows from the first two
 };
-inline constexpr std::size_t quantities = 13;
+inline constexpr std::size_t quantities = 14;
+/// Those that rows hold; the rest follows from them.
+inline constexpr std::size_t kept_quantities = 13;
 
 /// One game. A figure is missing if there was nothing to measure.
 struct sweep_row {
