@@ -28,6 +28,7 @@
 #include <rota/search/best_allocation.hpp>
 #include <rota/search/reallocate.hpp>
 #include <rota/team/budget.hpp>
+#include <rota/team/confidence.hpp>
 #include <rota/team/conflict.hpp>
 #include <rota/team/cycle.hpp>
 #include <rota/team/monitors/literal.hpp>
