@@ -21,7 +21,7 @@ using namespace rota::sim;
 struct reading {
   double conflict_share = 0;
   std::vector<std::int64_t> lengths;  // of episodes, in tenths of a millisecond, ascending
-  std::uint64_t cycles = 0, detections = 0, reigns = 0, right = 0;
+  std::uint64_t cycles = 0, detections = 0, reigns = 0, renewals = 0, right = 0;
   std::vector<std::uint64_t> led = std::vector<std::uint64_t>(5);
 };
 
@@ -106,18 +106,21 @@ reading read(std::vector<line> const& log, instant begin, instant end) {
     if (log[i].time < begin) continue;
     r.cycles += log[i].cycles;
     r.detections += log[i].detected && log[i].what == happening::deliberated ? 1 : 0;
-    if (log[i].what != happening::reign_began) continue;
+    bool const renewed = log[i].what == happening::reign_renewed;
+    if (log[i].what != happening::reign_began && !renewed) continue;
     auto const mine = [&](line const& x) { return x.robot == log[i].robot; };
-    std::size_t judged = log[i].detected ? i : i + 1;
+    std::size_t judged = log[i].detected || renewed ? i : i + 1;
     while (judged < log.size() && judged > i &&
            !(mine(log[judged]) && log[judged].what == happening::deliberated && log[judged].leading))
       ++judged;
     std::size_t ended = i + 1;
-    while (ended < log.size() && !(mine(log[ended]) && log[ended].what == happening::reign_ended)) ++ended;
+    while (ended < log.size() && !(mine(log[ended]) && (log[ended].what == happening::reign_ended ||
+                                                        log[ended].what == happening::reign_renewed)))
+      ++ended;
     if (judged > ended || judged == log.size()) continue;
     if (ended < log.size() && log[ended].superseded && log[ended].time - log[i].time < milliseconds(300)) continue;
     if (ended == log.size() && end - log[i].time < milliseconds(300)) continue;
-    ++r.reigns;
+    ++(renewed ? r.renewals : r.reigns);
     ++r.led[log[i].robot];
     bool const right = log[judged].believed.contains({{true_attacker(log[judged].truth) + 1}, {1}, {1}});
     r.right += right ? 1 : 0;
@@ -164,6 +167,7 @@ TEST_P(scenarios, every_figure_follows_from_the_log_and_resolution_shortens_epis
     EXPECT_EQ(f.cycles, r.cycles);
     EXPECT_EQ(f.detections, r.detections);
     EXPECT_EQ(f.reigns, r.reigns);
+    EXPECT_EQ(f.renewals, r.renewals);
     EXPECT_EQ(f.right, r.right);
     EXPECT_EQ(f.led, r.led);
   }

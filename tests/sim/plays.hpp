@@ -45,7 +45,8 @@ struct recorder {
   void operator()(rota::sim::log_record const& r) const {
     using rota::sim::happening;
     bool const decides = r.what == happening::deliberated && (r.leading || r.cycles > 0 || r.detected);
-    bool const reigns = r.what == happening::reign_began || r.what == happening::reign_ended;
+    bool const reigns =
+        r.what == happening::reign_began || r.what == happening::reign_renewed || r.what == happening::reign_ended;
     if (r.change.empty() && !decides && !reigns && r.what != happening::entered) return;
     lines.push_back({r.time, r.robot, r.what, r.change, r.believed, r.leading ? r.truth : rota::sim::world_state{},
                      r.cycles, r.detected, r.leading, r.superseded});

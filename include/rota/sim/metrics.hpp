@@ -21,8 +21,9 @@ struct figures {
   std::uint64_t cycles = 0;
   std::uint64_t detections = 0;
   std::uint64_t reigns = 0;
-  std::uint64_t right = 0;
-  std::vector<std::uint64_t> led;  ///< reigns per robot
+  std::uint64_t renewals = 0;      ///< of reigns
+  std::uint64_t right = 0;         ///< reigns and renewals
+  std::vector<std::uint64_t> led;  ///< reigns and renewals per robot
   std::uint64_t deliberations = 0;
   std::uint64_t messages = 0;  ///< broadcasts
   std::uint64_t perception_digest = 0;
@@ -31,8 +32,10 @@ struct figures {
   [[nodiscard]] double conflict_share() const { return share(in_conflict); }
   [[nodiscard]] double not_one_share() const { return share(pursuit.not_one); }
   [[nodiscard]] double wrong_share() const { return share(pursuit.wrong); }
+  /// How often it was settled who leads.
+  [[nodiscard]] std::uint64_t terms() const { return reigns + renewals; }
   [[nodiscard]] double right_share() const {
-    return reigns == 0 ? 0 : static_cast<double>(right) / static_cast<double>(reigns);
+    return terms() == 0 ? 0 : static_cast<double>(right) / static_cast<double>(terms());
   }
   /// No episode was longer than 4 s.
   [[nodiscard]] bool resolved() const { return episodes.longest_ms() <= 4000; }
@@ -51,8 +54,10 @@ private:
 ///   the end of the run cut episodes off; the agreement at the end of the run may be shorter than `calm`.
 /// * reign: a robot begins to lead within the measured time, and `calm` later it has not turned to a greater claim and the
 ///   run has not ended. So of several claims made at once only the greatest counts.
+/// * renewal: a leader claims anew, and `calm` later, or when it ends its reign itself, it has not turned to a greater claim.
+///   Each renewal asks again who should lead.
 /// * right: the leader imposes the attackers of the best allocation under the true world. This is judged at its first
-///   deliberation as a leader; the deliberation that began the reign counts as one.
+///   deliberation as a leader, and at each renewal; the deliberation that began the reign counts as one.
 /// * who pursues the ball: see `pursuit_watch`.
 template <class Simulation>
 class metrics {
@@ -94,7 +99,7 @@ public:
     case happening::said_plan:
     case happening::said_claim: ++figures_.messages; break;
     case happening::reign_began:
-      mine = {r.time, std::nullopt};
+      mine = {r.time, std::nullopt, false};
       if (r.detected) mine.right = imposes_right(r);
       break;
     case happening::reign_ended:
@@ -102,6 +107,9 @@ public:
       mine = {};
       break;
     case happening::reign_renewed:
+      if (mine.began) count(r.robot);
+      mine = {r.time, imposes_right(r), true};
+      break;
     case happening::entered:
     case happening::left:
     case happening::crashed:
@@ -127,6 +135,7 @@ private:
   struct reign {
     std::optional<instant> began;
     std::optional<bool> right;
+    bool renewed = false;
   };
 
   /// Accounts for the time up to t, when everything before t has happened.
@@ -165,7 +174,7 @@ private:
   void count(std::size_t robot) {
     reign const& mine = reigns_[robot];
     if (!mine.right) return;
-    ++figures_.reigns;
+    ++(mine.renewed ? figures_.renewals : figures_.reigns);
     ++figures_.led[robot];
     figures_.right += *mine.right ? 1 : 0;
   }
