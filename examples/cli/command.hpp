@@ -70,6 +70,7 @@ struct simulate_options {
   std::uint32_t cycles = 0;
   double reign = 0;  ///< s
   std::string resolution = "on";
+  std::string stamp = "id";  ///< one that `sim::parse_stamp_policy` knows
   bool json = false;
 };
 /// The defaults, which are those of the simulation.
@@ -78,7 +79,8 @@ struct simulate_options {
 
 struct reproduce_options {
   std::uint64_t seed = 1;
-  std::string plan;  ///< empty: the shipped one
+  std::string plan;          ///< empty: the shipped one
+  std::string stamp = "id";  ///< one that `sim::parse_stamp_policy` knows
   bool json = false;
 };
 [[nodiscard]] outcome run_reproduce(reproduce_options const& o);

@@ -3,6 +3,7 @@
 #include <rota/sim/closed/ways.hpp>
 #include <rota/sim/closed/world.hpp>
 #include <rota/sim/scenario.hpp>
+#include <rota/sim/stamp_policy.hpp>
 #include <rota/sim/world.hpp>
 
 #include <CLI/CLI.hpp>
@@ -97,6 +98,17 @@ void add_allocate(CLI::App& program, command& chosen) {
              "Exit status: 0 found, 1 no valid allocation, 2 misuse or a wrong input file.");
 }
 
+/// Adds --stamp, which names the policy that decides who leads.
+void add_stamp(CLI::App& sub, std::string& name) {
+  std::string names;
+  for (auto const p : sim::all_stamp_policies) names += (names.empty() ? "" : ", ") + std::string(to_string(p));
+  sub.add_option("--stamp", name, "who leads: " + names)
+      ->check([names](std::string const& text) {
+        return sim::parse_stamp_policy(text) ? std::string{} : '"' + text + "\" is no stamp policy; there are " + names;
+      })
+      ->capture_default_str();
+}
+
 void add_simulate(CLI::App& program, command& chosen) {
   auto const o = std::make_shared<simulate_options>(default_simulation());
   CLI::App& sub = add(program, chosen, o, run_simulate, "simulate", "Plays one scenario and measures its conflicts");
@@ -129,6 +141,7 @@ void add_simulate(CLI::App& program, command& chosen) {
   sub.add_option("--resolution", o->resolution, "on, or off: detect only")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
+  add_stamp(sub, o->stamp);
   sub.add_flag("--json", o->json, "print JSON");
 }
 
@@ -139,6 +152,7 @@ void add_reproduce(CLI::App& program, command& chosen) {
   sub.add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
   sub.add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan")
       ->check(check_not_empty);
+  add_stamp(sub, o->stamp);
   sub.add_flag("--json", o->json, "print JSON");
 }
 

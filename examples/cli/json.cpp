@@ -157,8 +157,9 @@ ordered_json json_of(sim::scenario what, bool resolution, sim::figures const& f)
   out["cycles"] = f.cycles;
   out["detections"] = f.detections;
   out["reigns"] = f.reigns;
+  out["renewals"] = f.renewals;
   out["right_share"] = nullptr;
-  if (f.reigns > 0) out["right_share"] = f.right_share();
+  if (f.terms() > 0) out["right_share"] = f.right_share();
   out["resolved"] = f.resolved();
   out["right"] = f.right;
   auto led = ordered_json::object();
@@ -299,13 +300,15 @@ named_allocation read_allocation(std::string const& file) {
   return a;
 }
 
-std::string as_json(sim::scenario what, bool resolution, std::uint64_t seed, sim::figures const& f) {
+std::string as_json(sim::scenario what, bool resolution, std::uint64_t seed, std::string const& stamp,
+                    sim::figures const& f) {
   auto out = json_of(what, resolution, f);
   out["seed"] = seed;
+  out["stamp"] = stamp;
   return out.dump(2) + '\n';
 }
 
-std::string as_json(evaluation const& e, std::uint64_t seed) {
+std::string as_json(evaluation const& e, std::uint64_t seed, std::string const& stamp) {
   ordered_json timing;
   timing["two_cycles_ms"] = e.timing.two_cycles_ms;
   timing["four_cycles_ms"] = e.timing.four_cycles_ms;
@@ -323,6 +326,7 @@ std::string as_json(evaluation const& e, std::uint64_t seed) {
   out["timing"] = std::move(timing);
   out["scenarios"] = std::move(scenarios);
   out["seed"] = seed;
+  out["stamp"] = stamp;
   return out.dump(2) + '\n';
 }
 

@@ -76,10 +76,11 @@ struct named_allocation {
 [[nodiscard]] named_allocation read_allocation(std::string const& file);
 
 /// One run. Undefined shares are null.
-[[nodiscard]] std::string as_json(sim::scenario what, bool resolution, std::uint64_t seed, sim::figures const& f);
+[[nodiscard]] std::string as_json(sim::scenario what, bool resolution, std::uint64_t seed, std::string const& stamp,
+                                  sim::figures const& f);
 
 /// All runs, each in the form of one run.
-[[nodiscard]] std::string as_json(evaluation const& e, std::uint64_t seed);
+[[nodiscard]] std::string as_json(evaluation const& e, std::uint64_t seed, std::string const& stamp);
 
 /// The table of monitors, a row each.
 [[nodiscard]] std::string as_json(std::vector<monitor_row> const& rows, std::uint64_t seed);

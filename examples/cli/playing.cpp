@@ -5,6 +5,7 @@
 #include "text.hpp"
 
 #include <rota/adapters/alica/convert.hpp>
+#include <rota/sim/stamps.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -50,6 +51,8 @@ void require_playable(sim::playbook const& book, std::size_t robots, std::string
     throw input_error(file, "", counted(robots, "robot") + " cannot play it: no allocation is valid");
 }
 
+sim::stamp_function stamp_of(std::string const& policy) { return sim::function_of(*sim::parse_stamp_policy(policy)); }
+
 sim::figures play_scenario(sim::playbook const& book, sim::play_options const& options) {
   return sim::play(book, options);
 }
@@ -58,7 +61,7 @@ evaluation::row const& evaluation::of(sim::scenario s) const {
   return *std::find_if(rows.begin(), rows.end(), [s](row const& r) { return r.what == s; });
 }
 
-evaluation evaluate(sim::playbook const& book, std::uint64_t seed,
+evaluation evaluate(sim::playbook const& book, std::uint64_t seed, sim::stamp_function const& stamp,
                     std::function<void(std::size_t steps, std::string const& what)> const& next) {
   constexpr auto steps = 2 + 2 * sim::all_scenarios.size();
   evaluation e;
@@ -76,6 +79,7 @@ evaluation evaluate(sim::playbook const& book, std::uint64_t seed,
       options.what = s;
       options.team.seed = seed;
       options.team.robot.resolution = resolution;
+      options.team.stamp = stamp;
       return play_scenario(book, options);
     };
     auto off = run(false);

@@ -20,6 +20,9 @@ namespace rota::cli {
 /// Throws `input_error` if so many robots have no valid allocation of any of the plans.
 void require_playable(sim::playbook const& book, std::size_t robots, std::string const& file);
 
+/// The stamp policy of this name. @pre `sim::parse_stamp_policy` knows it
+[[nodiscard]] sim::stamp_function stamp_of(std::string const& policy);
+
 /// `sim::play`, which only playing.cpp compiles.
 [[nodiscard]] sim::figures play_scenario(sim::playbook const& book, sim::play_options const& options);
 
@@ -36,8 +39,8 @@ struct evaluation {
   [[nodiscard]] row const& of(sim::scenario s) const;
 };
 
-/// Plays all scenarios. Says before each step how many there are, and what comes next.
-[[nodiscard]] evaluation evaluate(sim::playbook const& book, std::uint64_t seed,
+/// Plays all scenarios, with these stamps. Says before each step how many there are, and what comes next.
+[[nodiscard]] evaluation evaluate(sim::playbook const& book, std::uint64_t seed, sim::stamp_function const& stamp,
                                   std::function<void(std::size_t steps, std::string const& what)> const& next);
 
 /// The names of the plans, in one line.

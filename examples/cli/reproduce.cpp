@@ -13,7 +13,7 @@
 namespace rota::cli {
 namespace {
 
-std::string as_text(evaluation const& e, sim::playbook const& book, std::uint64_t seed) {
+std::string as_text(evaluation const& e, sim::playbook const& book, reproduce_options const& o) {
   using sim::scenario;
   std::vector<std::array<std::string, 12>> table;
   table.push_back({"scenario", "resolution", "in conflict", "episodes", "median", "p99", "longest", "cycles",
@@ -25,7 +25,7 @@ std::string as_text(evaluation const& e, sim::playbook const& book, std::uint64_
                        std::to_string(f.episodes.count()), milliseconds_text(f.episodes.percentile_ms(50)),
                        milliseconds_text(f.episodes.percentile_ms(99)), milliseconds_text(f.episodes.longest_ms()),
                        std::to_string(f.cycles), std::to_string(f.detections), std::to_string(f.reigns),
-                       f.reigns == 0 ? "-" : percent(f.right_share()), leaders(f)});
+                       f.terms() == 0 ? "-" : percent(f.right_share()), leaders(f)});
     }
 
   auto const& fight = e.of(scenario::ball_fight);
@@ -33,7 +33,7 @@ std::string as_text(evaluation const& e, sim::playbook const& book, std::uint64_
   auto const& none = e.of(scenario::phantom_none);
   auto const& hour = e.of(scenario::hour);
   auto const wrong = [](sim::figures const& f) {
-    return f.reigns == 0 ? std::string("no reign") : percent(1 - f.right_share()) + " wrong";
+    return f.terms() == 0 ? std::string("no reign") : percent(1 - f.right_share()) + " wrong";
   };
   auto const longest = [](sim::figures const& f) { return milliseconds_text(f.episodes.longest_ms()); };
   std::vector<std::array<std::string, 2>> words{
@@ -54,8 +54,9 @@ std::string as_text(evaluation const& e, sim::playbook const& book, std::uint64_
       {"\"one third\" incorrect, by bad localisation",
        wrong(hour.on) + "; mislocalised: " + wrong(e.of(scenario::mislocalised).on)}};
 
-  return "Five robots play " + plan_names(book) + ", seed " + std::to_string(seed) +
-         ": deliberation every 30 ms, messages every 100 ms, n = 4 cycles, reigns of 2 s.\n\n" + laid_out(table) +
+  return "Five robots play " + plan_names(book) + ", seed " + std::to_string(o.seed) +
+         ": deliberation every 30 ms, messages every 100 ms, n = 4 cycles, reigns of 2 s" +
+         (o.stamp == "id" ? "" : ", stamps: " + o.stamp) + ".\n\n" + laid_out(table) +
          "\n  An episode of conflict ends when agreement has lasted 300 ms. Right: reigns that imposed the attacker "
          "whom\n"
          "  the true world asks for. Off and on see the same, bit for bit.\n\n" +
@@ -71,8 +72,9 @@ outcome run_reproduce(reproduce_options const& o) {
   auto const book = read_playbook(file);
   require_playable(book, sim::play_options{}.robots, file);
   progress shown;
-  auto const e = evaluate(book, o.seed, [&](std::size_t steps, std::string const& what) { shown.next(steps, what); });
-  return {o.json ? as_json(e, o.seed) : as_text(e, book, o.seed)};
+  auto const e = evaluate(book, o.seed, stamp_of(o.stamp),
+                          [&](std::size_t steps, std::string const& what) { shown.next(steps, what); });
+  return {o.json ? as_json(e, o.seed, o.stamp) : as_text(e, book, o)};
 }
 
 }  // namespace rota::cli

@@ -11,13 +11,14 @@ namespace {
 
 duration in_nanoseconds(double amount, double unit) { return {static_cast<std::int64_t>(amount * unit + 0.5)}; }
 
-std::string as_text(sim::playbook const& book, sim::play_options const& o, sim::figures const& f) {
+std::string as_text(sim::playbook const& book, sim::play_options const& o, std::string const& stamp,
+                    sim::figures const& f) {
   auto const& robot = o.team.robot;
   std::string out =
       std::string(to_string(o.what)) + ": " + counted(o.robots, "robot") + " play " + plan_names(book) + " for " +
       milliseconds_text(to_milliseconds(f.measured)) + ", seed " + std::to_string(o.team.seed) + "\nresolution " +
       (robot.resolution ? "on: " + std::to_string(robot.cycles) + " cycles, reigns of " +
-                              milliseconds_text(to_milliseconds(robot.reign))
+                              milliseconds_text(to_milliseconds(robot.reign)) + ", stamps: " + stamp
                         : std::string("off")) +
       "; loss " + percent(o.team.network.loss) + ", latency " + number(to_milliseconds(o.team.network.latency)) +
       " to " + number(to_milliseconds(o.team.network.latency + o.team.network.jitter)) + " ms\n\n";
@@ -31,8 +32,9 @@ std::string as_text(sim::playbook const& book, sim::play_options const& o, sim::
                                      milliseconds_text(e.percentile_ms(99)) + ", " + milliseconds_text(e.longest_ms()));
   line("cycles", std::to_string(f.cycles));
   line("detections", std::to_string(f.detections));
-  line("reigns", std::to_string(f.reigns) + (f.reigns == 0 ? "" : ", led by " + leaders(f)));
-  if (f.reigns > 0) line("  right attacker imposed", percent(f.right_share()));
+  line("reigns", std::to_string(f.reigns) +
+                     (f.terms() == 0 ? "" : ", renewed " + counted(f.renewals, "time") + ", led by " + leaders(f)));
+  if (f.terms() > 0) line("  right attacker imposed", percent(f.right_share()));
   auto const& reactions = f.pursuit.reactions;
   line("not exactly one attacker", percent(f.not_one_share()));
   line("a wrong attacker", percent(f.wrong_share()));
@@ -69,11 +71,13 @@ outcome run_simulate(simulate_options const& o) {
   options.team.robot.cycles = o.cycles;
   options.team.robot.reign = options.team.robot.max_reign = in_nanoseconds(o.reign, 1e9);
   options.team.robot.resolution = o.resolution == "on";
+  options.team.stamp = stamp_of(o.stamp);
   auto const file = o.plan.empty() ? default_plan() : o.plan;
   auto const book = read_playbook(file);
   require_playable(book, o.robots, file);
   auto const f = play_scenario(book, options);
-  return {o.json ? as_json(options.what, options.team.robot.resolution, o.seed, f) : as_text(book, options, f)};
+  return {o.json ? as_json(options.what, options.team.robot.resolution, o.seed, o.stamp, f)
+                 : as_text(book, options, o.stamp, f)};
 }
 
 }  // namespace rota::cli

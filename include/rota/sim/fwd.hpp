@@ -7,9 +7,12 @@ namespace rota::sim {
 enum class scenario : unsigned char;
 enum class happening : unsigned char;
 enum class invariant : unsigned char;
+enum class stamp_policy : unsigned char;
 struct point;
 struct world_state;
 struct perceived;
+struct testimony;
+struct knowledge;
 struct playbook;
 struct log_record;
 struct figures;

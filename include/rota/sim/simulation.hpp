@@ -4,6 +4,7 @@
 #include <rota/sim/clock.hpp>
 #include <rota/sim/faults.hpp>
 #include <rota/sim/interference.hpp>
+#include <rota/sim/knowledge.hpp>
 #include <rota/sim/log.hpp>
 #include <rota/sim/network.hpp>
 
@@ -25,6 +26,9 @@ struct simulation_options {
   network_options network;
   sensor_options sensor;
   sim::faults faults;  ///< nothing goes wrong by default
+  /// How sure each robot is of its claims; if empty, as `robot` says. What it throws leaves `run`, which can be called again: the
+  /// robot has missed one deliberation.
+  stamp_function stamp;
 };
 
 /// A team of robots in virtual time: discrete events, a scripted world, and the same `robot` that a real robot runs.
@@ -48,7 +52,8 @@ public:
         members_(team_of(world_.state().robots.size())),
         network_(options.network, members_.size(), options.seed),
         air_(options.faults, members_.size(), options.seed),
-        faults_(options.faults) {
+        faults_(options.faults),
+        stamp_(options.stamp) {
     for (std::size_t i = 0; i < members_.size(); ++i) {
       auto engine = engine_for(options.seed, stream::clock, i);
       robot_clock clock(options.clock, options.robot.message_period, engine);
@@ -66,7 +71,8 @@ public:
                          0,
                          first_life,
                          1,
-                         true});
+                         true,
+                         notebook(i, members_.size())});
     }
     schedule();
   }
@@ -135,6 +141,7 @@ private:
     incarnation greatest;  // that it has had
     std::uint32_t life;    // how many it has had; deliberations of others in the queue are void
     bool up;
+    notebook notes;  // empty where no stamps are asked for
   };
 
   struct entry {
@@ -156,6 +163,7 @@ private:
     message<names> content;
     std::uint32_t sender = 0;
     std::uint32_t copies = 0;
+    std::optional<testimony> beside;
   };
 
   void push(instant time, kind what, std::size_t robot, std::uint32_t slot = 0) {
@@ -214,6 +222,7 @@ private:
       r.greatest = (std::max)(r.greatest, life);
       r.mind = robot_type(r.mind.self(), members_.agents(), life, robot_options(r.mind.options()));
       r.up = true;
+      r.notes = notebook(u.robot, members_.size());
       ++r.life;
       while (r.next_loop <= local) r.next_loop += r.clock.loop();
       tell(observe, u.robot, happening::restarted, {});
@@ -245,6 +254,11 @@ private:
     push(r.clock.global(r.next_loop), kind::deliberation, i, r.life);
     world_.advance(now_);
     see(r, i);
+    if (stamp_) {
+      instant const local = r.clock.local(now_);
+      r.notes.look(r.belief, local);
+      r.mind.set_confidence(stamp_(r.notes.know(r.belief, local, book_, members_, space_)));
+    }
     if (!r.mind.executes(book_.type.id())) return speak(i, observe);
     auto const d = r.mind.deliberate(book_.type, members_, r.belief, r.clock.local(now_), space_);
     details more;
@@ -293,6 +307,7 @@ private:
     more.reason = answer.reason;
     more.genuine = !flipped;
     bool const plan = std::holds_alternative<plan_message<names>>(heard);
+    if (plan && b.beside && answer.verdict == verdict::accepted) r.notes.hear(b.sender, *b.beside, r.clock.local(now_));
     auto const change = answer.changes.empty() ? std::move(answer.imposed) : answer.changes[0].part.event();
     tell(observe, e.robot, plan ? happening::heard_plan : happening::heard_claim, change, more);
     note_reign(e.robot, observe);
@@ -347,7 +362,8 @@ private:
     }
     if (copies == 0) return;
     free_.pop_back();
-    messages_[slot] = {std::move(content), static_cast<std::uint32_t>(from), copies};
+    messages_[slot] = {std::move(content), static_cast<std::uint32_t>(from), copies,
+                       robots_[from].notes.account(robots_[from].belief, robots_[from].clock.local(now_))};
   }
 
   struct details {
@@ -393,6 +409,7 @@ private:
   network network_;
   interference air_;
   faults faults_;
+  stamp_function stamp_;
   std::vector<upheaval> upheavals_;
   std::vector<robot_record> robots_;
   perceived unseen_;
