@@ -3,6 +3,7 @@
 
 #include "playground.hpp"
 
+#include <rota/team/budget.hpp>
 #include <rota/team/print.hpp>
 
 #include <optional>
@@ -258,6 +259,20 @@ TEST_F(dissent, who_abstains_makes_nobody_else_abstain) {
   EXPECT_EQ(d.reason, decision_reason::reallocated);
   EXPECT_EQ(a.believes(play_id)->atoms(), (atoms{does(1, attack), does(2, attack)}));
   EXPECT_EQ(stands(a, start + milliseconds(100)), stance::none);
+}
+
+TEST_F(dissent, is_news) {
+  auto a = in_play(1, rota::sparing(milliseconds(500)));
+  a.receive(claim_by(9, 1), start);
+  auto now = start;
+  for (; now < start + milliseconds(600); now += milliseconds(10)) (void)a.next_message(now);  // what was news, twice
+  EXPECT_EQ(a.next_due(), start + milliseconds(1250));
+  (void)think(a, sees(9), now);
+  EXPECT_EQ(stands(a, now + milliseconds(100)), stance::dissents);
+  (void)a.next_message(now + milliseconds(100));
+  (void)a.next_message(now + milliseconds(200));
+  (void)think(a, sees(9), now + milliseconds(210));
+  EXPECT_GT(a.next_due(), now + milliseconds(300)) << "it still does: that is none";
 }
 
 TEST_F(dissent, is_told_in_words) {

@@ -103,8 +103,9 @@ struct robot_options {
   /// renews, and who obeys does not search for what it would do otherwise: the paper's reign of fixed length. The same for all.
   std::uint32_t renewals = 400;
   duration message_period = milliseconds(100);
-  /// If positive, news is said this soon after the last message, and twice: the robot enters, leaves or leads, its
-  /// reallocation changed anything, or (once) a message's fingerprint differs. `sparing` of team/budget.hpp sets it.
+  /// If positive, news is said this soon after the last message, and twice: the robot enters, leaves or leads, begins to
+  /// abstain or dissent, its reallocation changed anything, or (once) a message's fingerprint differs. `sparing` of
+  /// team/budget.hpp sets it.
   duration change_period{};
   duration claim_period = milliseconds(100);   ///< how often a leader repeats an unchanged claim
   duration opening = milliseconds(200);        ///< for this long from its beginning, a claim is repeated

@@ -237,7 +237,11 @@ public:
       auto const here = t->rule.active() ? t->believed.atoms() : t->believed.told(self_);
       auto& next = d.search.emplace(searched(*t, pt, members, beliefs, here, space, budget, idle));
       ROTA_ASSERT(t->knows(next.atoms));  // or else another plan type was entered under this id
-      t->stance = !next.plan ? stance::abstains : obeys && !(next.atoms == here) ? stance::dissents : stance::none;
+      auto const stands = !next.plan                       ? stance::abstains
+                          : obeys && !(next.atoms == here) ? stance::dissents
+                                                           : stance::none;
+      if (stands != t->stance && stands != stance::none) timetable_.note_news();
+      t->stance = stands;
       d.dissents = t->stance == stance::dissents;
       if (!obeys) {
         auto const adopted = t->blind() ? others(here) : next.atoms;
