@@ -95,6 +95,16 @@ struct monitors_options {
 };
 [[nodiscard]] outcome run_monitors(monitors_options const& o);
 
+struct stamps_options {
+  std::uint64_t seeds = 10;
+  std::uint64_t seed = 1;         ///< the first
+  std::optional<double> minutes;  ///< none: as long as each scenario says
+  std::string stamp;              ///< only this one; empty: each, and what robots could do that know more
+  std::string plan;               ///< empty: the shipped one
+  bool json = false;
+};
+[[nodiscard]] outcome run_stamps(stamps_options const& o);
+
 struct timing_options {
   std::size_t runs = 10'000;
   std::uint64_t seed = 1;

@@ -99,14 +99,30 @@ void add_allocate(CLI::App& program, command& chosen) {
 }
 
 /// Adds --stamp, which names the policy that decides who leads.
-void add_stamp(CLI::App& sub, std::string& name) {
+CLI::Option& add_stamp(CLI::App& sub, std::string& name, std::string const& what) {
   std::string names;
   for (auto const p : sim::all_stamp_policies) names += (names.empty() ? "" : ", ") + std::string(to_string(p));
-  sub.add_option("--stamp", name, "who leads: " + names)
-      ->check([names](std::string const& text) {
-        return sim::parse_stamp_policy(text) ? std::string{} : '"' + text + "\" is no stamp policy; there are " + names;
-      })
+  return *sub.add_option("--stamp", name, what + names)->check([names](std::string const& text) {
+    return sim::parse_stamp_policy(text) ? std::string{} : '"' + text + "\" is no stamp policy; there are " + names;
+  });
+}
+
+void add_stamps(CLI::App& program, command& chosen) {
+  auto const o = std::make_shared<stamps_options>();
+  CLI::App& sub = add(program, chosen, o, run_stamps, "stamps",
+                      "Who should lead: how often each stamp policy lets the right robot lead, and what comes of it");
+  sub.add_option("--seeds", o->seeds, "so many games of each scenario")
+      ->check(within(std::uint64_t{1}, std::uint64_t{10'000}, "a whole number from 1 to 10000"))
       ->capture_default_str();
+  sub.add_option("--seed", o->seed, "of the first game; the next has the next seed")
+      ->check(check_seed)
+      ->capture_default_str();
+  sub.add_option("--minutes", o->minutes, "of each game; by default 60 of hour, otherwise 5")
+      ->check(within(0.01, 1440.0, "a number of minutes from 0.01 to 1440"));
+  add_stamp(sub, o->stamp, "only this one: ");
+  sub.add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan")
+      ->check(check_not_empty);
+  sub.add_flag("--json", o->json, "print JSON");
 }
 
 void add_simulate(CLI::App& program, command& chosen) {
@@ -141,7 +157,7 @@ void add_simulate(CLI::App& program, command& chosen) {
   sub.add_option("--resolution", o->resolution, "on, or off: detect only")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
-  add_stamp(sub, o->stamp);
+  add_stamp(sub, o->stamp, "who leads: ").capture_default_str();
   sub.add_flag("--json", o->json, "print JSON");
 }
 
@@ -152,7 +168,7 @@ void add_reproduce(CLI::App& program, command& chosen) {
   sub.add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
   sub.add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan")
       ->check(check_not_empty);
-  add_stamp(sub, o->stamp);
+  add_stamp(sub, o->stamp, "who leads: ").capture_default_str();
   sub.add_flag("--json", o->json, "print JSON");
 }
 
@@ -299,6 +315,7 @@ command parse_command_line(int argc, char** argv) {
   add_allocate(program, chosen);
   add_simulate(program, chosen);
   add_reproduce(program, chosen);
+  add_stamps(program, chosen);
   add_monitors(program, chosen);
   add_timing(program, chosen);
   add_budget(program, chosen);

@@ -422,7 +422,38 @@ void each_field(Cell& c, Field const& field) {
   field("minutes", c.minutes);
 }
 
+ordered_json json_of(estimate const& e) {
+  ordered_json out;
+  out["mean"] = e.games > 0 ? ordered_json(e.mean) : ordered_json();
+  out["within"] = or_null(e.within);
+  out["games"] = e.games;
+  return out;
+}
+
 }  // namespace
+
+std::string as_json(std::vector<stamp_cell> const& cells, std::uint64_t seed, std::uint64_t seeds) {
+  auto list = ordered_json::array();
+  for (auto const& c : cells) {
+    ordered_json cell;
+    cell["stamp"] = c.stamp;
+    cell["possible"] = c.possible;
+    cell["scenario"] = c.scenario;
+    cell["right_share"] = json_of(c.right);
+    cell["wrong_attacker_share"] = json_of(c.wrong);
+    cell["not_one_attacker_share"] = json_of(c.not_one);
+    cell["conflict_share"] = json_of(c.conflict);
+    cell["reaction_mean_ms"] = json_of(c.reaction_ms);
+    cell["reaction_p95_ms"] = json_of(c.reaction_p95_ms);
+    cell["missed_share"] = json_of(c.missed);
+    list.push_back(std::move(cell));
+  }
+  ordered_json out;
+  out["stamps"] = std::move(list);
+  out["seed"] = seed;
+  out["seeds"] = seeds;
+  return out.dump(2) + '\n';
+}
 
 std::string as_json(sweep_table const& t) {
   auto list = ordered_json::array();
@@ -430,11 +461,7 @@ std::string as_json(sweep_table const& t) {
     ordered_json line;
     each_field(l.cell, [&](char const* key, auto const& value) { line[key] = value; });
     for (std::size_t m = 0; m < quantities; ++m) {
-      auto const& e = l.figures[m];
-      auto& figure = line[std::string(name_of(static_cast<quantity>(m)))];
-      figure["mean"] = e.games > 0 ? ordered_json(e.mean) : ordered_json();
-      figure["within"] = or_null(e.within);
-      figure["games"] = e.games;
+      line[std::string(name_of(static_cast<quantity>(m)))] = json_of(l.figures[m]);
     }
     list.push_back(std::move(line));
   }

@@ -3,6 +3,7 @@
 #include "budget.hpp"
 #include "campaign.hpp"
 #include "monitors.hpp"
+#include "stamps.hpp"
 #include "sweep.hpp"
 #include <rota/adapters/alica/model.hpp>
 #include <rota/search/limits.hpp>
@@ -93,6 +94,9 @@ struct named_allocation {
 
 /// How long a team takes to overcome faults, a row each.
 [[nodiscard]] std::string as_json(std::vector<fault_row> const& rows, std::uint64_t runs, std::uint64_t seed);
+
+/// Ways to choose who leads, in each scenario.
+[[nodiscard]] std::string as_json(std::vector<stamp_cell> const& cells, std::uint64_t seed, std::uint64_t seeds);
 
 /// A sweep, a line each.
 [[nodiscard]] std::string as_json(sweep_table const& t);

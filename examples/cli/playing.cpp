@@ -5,7 +5,7 @@
 #include "text.hpp"
 
 #include <rota/adapters/alica/convert.hpp>
-#include <rota/sim/stamps.hpp>
+#include <rota/sim/oracle.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -53,8 +53,15 @@ void require_playable(sim::playbook const& book, std::size_t robots, std::string
 
 sim::stamp_function stamp_of(std::string const& policy) { return sim::function_of(*sim::parse_stamp_policy(policy)); }
 
-sim::figures play_scenario(sim::playbook const& book, sim::play_options const& options) {
-  return sim::play(book, options);
+sim::figures play_scenario(sim::playbook const& book, sim::play_options const& options,
+                           std::optional<sim::oracle> what) {
+  return sim::play_knowing(book, options, what);
+}
+
+std::vector<std::pair<sim::oracle, std::string>> oracles() {
+  std::vector<std::pair<sim::oracle, std::string>> all;
+  for (auto const o : sim::all_oracles) all.emplace_back(o, to_string(o));
+  return all;
 }
 
 evaluation::row const& evaluation::of(sim::scenario s) const {

@@ -5,8 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+namespace rota::sim {
+enum class oracle : unsigned char;
+}
 
 namespace rota::cli {
 
@@ -23,8 +29,11 @@ void require_playable(sim::playbook const& book, std::size_t robots, std::string
 /// The stamp policy of this name. @pre `sim::parse_stamp_policy` knows it
 [[nodiscard]] sim::stamp_function stamp_of(std::string const& policy);
 
-/// `sim::play`, which only playing.cpp compiles.
-[[nodiscard]] sim::figures play_scenario(sim::playbook const& book, sim::play_options const& options);
+/// `sim::play_knowing`, which only playing.cpp compiles.
+[[nodiscard]] sim::figures play_scenario(sim::playbook const& book, sim::play_options const& options,
+                                         std::optional<sim::oracle> what = std::nullopt);
+/// What `sim::to_string` calls them.
+[[nodiscard]] std::vector<std::pair<sim::oracle, std::string>> oracles();
 
 /// What the evaluation came to: the check figures, and each scenario without and with resolution.
 struct evaluation {

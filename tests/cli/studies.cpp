@@ -13,6 +13,7 @@ using nlohmann::json;
 class rota_budget : public program_test {};
 class rota_timing : public program_test {};
 class rota_monitors : public program_test {};
+class rota_stamps : public program_test {};
 
 TEST_F(rota_budget, counts_what_is_sent_and_spares_messages_without_more_conflict) {
   auto const r = rota_program({"budget", "--minutes", "0.2", "--runs", "2", "--json"});
@@ -70,6 +71,37 @@ TEST_F(rota_monitors, prints_one_row_for_each_monitor_and_n) {
   expect_complaint(rota_program({"monitors", "--cycles", "0"}), {"--cycles"});
   expect_complaint(rota_program({"monitors", "--runs", "4"}), {"--runs"});
   expect_complaint(rota_program({"monitors", "--limit", "0"}), {"--limit"});
+}
+
+TEST_F(rota_stamps, sets_what_robots_can_know_beside_what_they_cannot) {
+  auto const r = rota_program({"stamps", "--seeds", "2", "--minutes", "0.1", "--json"});
+  ASSERT_EQ(r.status, 0) << r.complaint;
+  auto const cells = json::parse(r.output, nullptr, false)["stamps"];
+  ASSERT_EQ(cells.size(), 5u * (6 + 3));
+  std::size_t possible = 0;
+  for (auto const& c : cells) {
+    possible += c["possible"] == true ? 1 : 0;
+    EXPECT_EQ(c["wrong_attacker_share"]["games"], 2) << c;
+    for (auto const* share : {"right_share", "wrong_attacker_share", "not_one_attacker_share", "conflict_share"}) {
+      if (c[share]["games"] == 0) continue;
+      EXPECT_GE(c[share]["mean"], 0) << share;
+      EXPECT_LE(c[share]["mean"], 1) << share;
+    }
+  }
+  EXPECT_EQ(possible, 5u * 6);
+}
+
+TEST_F(rota_stamps, prints_tables_and_misuse_is_one_line) {
+  auto const r = rota_program({"stamps", "--seeds", "1", "--minutes", "0.1", "--stamp", "consensus"});
+  EXPECT_EQ(r.status, 0) << r.complaint;
+  for (auto const* part :
+       {"1 game of each", "right leaders", "a wrong attacker", "mislocalised", "consensus", "missed"})
+    EXPECT_NE(r.output.find(part), std::string::npos) << part << " not in:\n" << r.output;
+  expect_complaint(rota_program({"stamps", "--stamp", "psychic"}), {"--stamp", "psychic", "consensus"});
+  expect_complaint(rota_program({"stamps", "--seeds", "0"}), {"--seeds"});
+  expect_complaint(rota_program({"stamps", "--seed", "-1"}), {"--seed"});
+  expect_complaint(rota_program({"stamps", "--minutes", "nan"}), {"--minutes"});
+  expect_complaint(rota_program({"stamps", "--plan", "/nowhere.pml"}), {"/nowhere.pml", "no such file"});
 }
 
 }  // namespace studies_test

@@ -3,7 +3,8 @@
 
 #include "plays.hpp"
 
-#include <rota/sim/stamps.hpp>
+#include <rota/sim/oracle.hpp>
+#include <rota/sim/restless_world.hpp>
 
 #include <optional>
 #include <stdexcept>
@@ -101,6 +102,27 @@ TEST(stamps, an_old_testimony_does_not_count) {
     s.says[1].self = {metres(-6), 0};  // at the home of Defend: the better for everybody
     EXPECT_EQ(s.confidence(stamp_policy::consensus, 0) == before, age == seconds(3));
   }
+}
+
+/// What none can know: which of the two that fight is closer, that robot 5 sees a phantom, and what the choice of each is worth.
+TEST(stamps, oracles_know_what_is_true) {
+  scene s;
+  world_state truth;
+  for (auto const& t : s.says) truth.robots.push_back({t.self, {}, {}});
+  truth.robots[4].phantom = s.says[4].ball = {metres(4.5), 0};
+  auto const knowing = [&](oracle what, std::size_t robot) {
+    perceived seen;
+    seen.ball = s.says[robot].ball;
+    for (auto const& t : s.says) seen.robots.push_back(t.self);
+    std::vector<std::optional<testimony>> told(5);
+    return confidence_knowing(what, {robot, {}, seen, false, told, s.book, s.members, s.space}, truth, exact_sensor());
+  };
+  EXPECT_EQ(knowing(oracle::confused, 4), 0u);
+  EXPECT_EQ(knowing(oracle::confused, 3), 1u);
+  EXPECT_EQ(knowing(oracle::choice, 4), 0u) << "it would go itself";
+  EXPECT_EQ(knowing(oracle::choice, 3), 1u) << "it would send robot 1";
+  EXPECT_GT(knowing(oracle::eyes, 0), knowing(oracle::eyes, 3)) << "which knows less of robot 1";
+  EXPECT_GT(knowing(oracle::eyes, 3), knowing(oracle::eyes, 4));
 }
 
 /// What a robot knows: its own eyes, each mate's testimony after its first message, none of its own, and never the truth.

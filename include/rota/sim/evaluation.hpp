@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace rota::sim {
 
@@ -20,13 +21,15 @@ struct play_options {
   simulation_options team;
 };
 
-/// Plays a scenario once and measures it; `observe` sees every record as well. Equal options give equal figures.
+/// Plays a scenario once and measures it; `observe` sees every record as well, and `before` the simulation before it begins.
+/// Equal options give equal figures.
 ///
 /// @pre 2 ≤ robots ≤ max_robots. Complexity: about 1 µs per deliberation and message.
-template <class Monitor = conflict_monitor<names>, observer Observer>
-[[nodiscard]] figures play(playbook const& book, play_options const& options, Observer&& observe) {
+template <class Monitor = conflict_monitor<names>, observer Observer, class Before>
+[[nodiscard]] figures play(playbook const& book, play_options const& options, Observer&& observe, Before&& before) {
   simulation<scripted_world, Monitor> team(
       book, scripted_world(options.what, options.robots, options.team.seed, options.world), options.team);
+  before(std::as_const(team));
   instant const begin = instant{} + options.warm_up;
   instant const end = begin + options.length.value_or(default_length(options.what));
   metrics measure(team, begin);
@@ -35,6 +38,10 @@ template <class Monitor = conflict_monitor<names>, observer Observer>
     observe(r);
   });
   return measure.finish(end);
+}
+template <class Monitor = conflict_monitor<names>, observer Observer>
+[[nodiscard]] figures play(playbook const& book, play_options const& options, Observer&& observe) {
+  return play<Monitor>(book, options, observe, [](auto const&) {});
 }
 template <class Monitor = conflict_monitor<names>>
 [[nodiscard]] figures play(playbook const& book, play_options const& options) {

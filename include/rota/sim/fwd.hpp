@@ -8,6 +8,7 @@ enum class scenario : unsigned char;
 enum class happening : unsigned char;
 enum class invariant : unsigned char;
 enum class stamp_policy : unsigned char;
+enum class oracle : unsigned char;
 struct point;
 struct world_state;
 struct perceived;

@@ -117,9 +117,20 @@ inline constexpr double most_metres = 256;
   return confidence_of(pay(distance(k.seen.robots[k.self], k.seen.ball), 1), 0, most_metres, greatest);
 }
 
-/// What the robot's choice is worth in the shared world. A robot that would send another to the ball knows less than that one,
-/// so that costs it 20 cm.
-[[nodiscard]] inline double shared_worth(knowledge const& k) {
+/// What a robot's choice is worth in this world. A robot that would send another to the ball knows less than that one, so that
+/// costs it 20 cm.
+[[nodiscard]] inline std::uint32_t worth_in(knowledge const& k, perceived const& world,
+                                            std::span<names::agent const> present, solution<names> const& choice) {
+  auto const worth = evaluate(problem<names, perceived>(k.book.type, k.members, world, present),
+                              *k.book.type.find(choice.plan), choice.atoms);
+  if (!worth) return 0;
+  bool const myself = std::any_of(choice.atoms.begin(), choice.atoms.end(),
+                                  [&](in<names> const& x) { return x.agent.value == k.self + 1 && k.book.attacks(x); });
+  return confidence_of(to_double(*worth) - (myself ? 0 : 0.2), 0, most_metres);
+}
+
+/// What the robot's choice is worth in the shared world.
+[[nodiscard]] inline std::uint32_t shared_worth(knowledge const& k) {
   witnesses const all(k);
   if (k.seen.blind) return 0;
   small_vector<names::agent, max_robots> present;
@@ -127,13 +138,7 @@ inline constexpr double most_metres = 256;
   std::span<names::agent const> const who(present.begin(), present.size());
   auto const mine = best_allocation(problem<names, perceived>(k.book.type, k.members, k.seen, who), k.space);
   if (!mine) return 0;
-  perceived const shared = shared_world(k, all);
-  auto const worth = evaluate(problem<names, perceived>(k.book.type, k.members, shared, who),
-                              *k.book.type.find(mine->plan), mine->atoms);
-  if (!worth) return 0;
-  bool const myself = std::any_of(mine->atoms.begin(), mine->atoms.end(),
-                                  [&](in<names> const& x) { return x.agent.value == k.self + 1 && k.book.attacks(x); });
-  return to_double(*worth) - (myself ? 0 : 0.2);
+  return worth_in(k, shared_world(k, all), who, *mine);
 }
 
 }  // namespace detail
@@ -149,8 +154,7 @@ inline constexpr double most_metres = 256;
     return [](knowledge const& k) { return mates_agreeing(k) == 0 ? 0 : closeness(k); };
   case stamp_policy::mates_then_closeness:
     return [](knowledge const& k) { return first_then(mates_agreeing(k), closeness(k, greatest_second)); };
-  case stamp_policy::consensus:
-    return [](knowledge const& k) { return confidence_of(shared_worth(k), 0, most_metres); };
+  case stamp_policy::consensus: return [](knowledge const& k) { return shared_worth(k); };
   }
   return {};
 }
