@@ -117,6 +117,29 @@ TEST(campaign, robots_that_never_agree_are_found_out) {
   });
 }
 
+TEST(campaign, greater_robots_that_let_smaller_ones_lead_are_found_out) {
+  expect_broken(invariant::smaller_answered, [](campaign_run& run) {
+    run.team.faults.confidences = {{0, {}, 5}};  // they have a reason: the smallest has more confidence
+    run.promised.answers = run.team.robot.resolution;
+  });
+}
+
+/// A monitor that is another whenever one looks.
+struct restless : conflict_monitor<names> {
+  using conflict_monitor<names>::conflict_monitor;
+  template <class Digest>
+  void digest_into(Digest& d) const {
+    d(++looks);
+  }
+  inline static std::uint64_t looks = 0;
+};
+
+TEST(campaign, messages_that_change_something_although_they_do_not_count_are_found_out) {
+  auto const r = play_run<restless>(campaign_playbook(), make_run(1));
+  ASSERT_TRUE(r.broken);
+  EXPECT_EQ(r.broken->what, invariant::nothing_changed);
+}
+
 /// A monitor that takes everything for a loop.
 struct panic {
   panic() = default;
@@ -128,6 +151,10 @@ struct panic {
   void forget(names::agent) {}
   void clear() {}
   void shift(duration) {}
+  template <class Digest>
+  void digest_into(Digest& d) const {
+    d(who);
+  }
   names::agent who{};
 };
 

@@ -86,12 +86,13 @@ struct invariants : testing::Test {
     robot(i).rules.lead(type, {}, {0, {i + 1}}, {1000}, number, instant{}, instant{}, end, renewals);
   }
   void tell(instant t, std::size_t i, happening what, std::size_t other = 0, message<names> const* content = nullptr,
-            std::optional<claim_outcome> outcome = std::nullopt, verdict v = verdict::accepted) {
+            std::optional<claim_outcome> outcome = std::nullopt, verdict v = verdict::accepted,
+            std::optional<bool> abstains = std::nullopt, bool changed = false) {
     if (!watch) watch.emplace(team, held, faults{});
     world_state const truth;
     event<in<names>> const change;
     (*watch)(log_record{t, i, what, change, robot(i).believed.atoms(), truth, other, 0, false, false, false, outcome,
-                        content, v, refusal::none, true});
+                        content, v, refusal::none, true, abstains, changed});
   }
   void hear(instant t, std::size_t i, claim<names> const& c, claim_outcome outcome) {
     message<names> const m = c;
@@ -289,6 +290,97 @@ TEST_F(invariants, no_orphans) {
 TEST_F(invariants, nothing_refused) {
   hear(at(0), 0, plan_of(3, 1), verdict::refused);
   broken(invariant::nothing_refused);
+}
+
+TEST_F(invariants, nothing_changed) {
+  message<names> const m = plan_of(3, 1);
+  tell(at(0), 0, happening::heard_plan, 2, &m);
+  tell(at(1), 0, happening::heard_plan, 2, &m, std::nullopt, verdict::stale);
+  fine();
+  tell(at(2), 0, happening::heard_plan, 2, &m, std::nullopt, verdict::stale, std::nullopt, true);
+  broken(invariant::nothing_changed);
+}
+
+TEST_F(invariants, smaller_answered) {
+  held.answers = true;
+  auto const adopts = [&](int t, std::size_t i, std::uint64_t leader, std::uint64_t number) {
+    obey(i, claim_of(leader, number), at(t));
+    hear(at(t), i, claim_of(leader, number), claim_outcome::adopted);
+  };
+  adopts(0, 0, 3, 1);  // the greater one
+  lead(2, 1, at(5));
+  hear(at(0), 2, claim_of(1, 1), claim_outcome::challenged);
+  adopts(10, 2, 1, 1);  // once more: it was answered
+  tell(at(10), 1, happening::deliberated, 0, nullptr, std::nullopt, verdict::accepted, true);
+  adopts(10, 1, 1, 1);  // who abstains answers nobody
+  fine();
+  robot(2).rules = {};
+  tell(at(20), 2, happening::deliberated);
+  adopts(20, 2, 1, 2);
+  broken(invariant::smaller_answered);
+}
+
+TEST_F(invariants, smaller_answered_unless_somebody_rules) {
+  held.answers = true;
+  obey(2, claim_of(1, 1), at(0));
+  tell(at(0), 2, happening::deliberated);
+  obey(2, claim_of(2, 1), at(0));
+  hear(at(0), 2, claim_of(2, 1), claim_outcome::adopted);
+  fine();
+}
+
+/// Until bits that have flipped count no more, a team may do what it never does otherwise.
+TEST_F(invariants, nothing_refused_once_all_is_genuine) {
+  held.genuine = at(1000);
+  hear(at(999), 0, plan_of(3, 1), verdict::refused);
+  fine();
+  hear(at(1000), 0, plan_of(3, 1), verdict::refused);
+  broken(invariant::nothing_refused);
+}
+
+/// Bounds worked out by hand: three robots, L = 5 ms, exact clocks, each period a microsecond longer to be safe.
+TEST(promised, is_what_the_theory_says) {
+  simulation_options o;
+  o.network.latency = milliseconds(2);
+  o.network.jitter = milliseconds(3);
+  o.clock.drift_ppm = o.clock.loop_spread_ppm = 0;
+  auto const calm = instant{} + seconds(10);
+  auto const us = [](std::int64_t n) { return instant{} + microseconds(n); };
+
+  auto p = promised(o, 3, calm);
+  EXPECT_EQ(p.delay, milliseconds(5));
+  EXPECT_EQ(p.slack, microseconds(2));
+  EXPECT_EQ(p.silence, microseconds(2'600'001));  // 2 s + a claim period of 100 ms + 500 ms that a claim may take
+  EXPECT_EQ(p.longest_reign, seconds(2));
+  EXPECT_EQ(p.healed, calm);
+  EXPECT_EQ(p.hearing, us(10'105'001));  // P + L
+  EXPECT_EQ(p.genuine, instant{});
+  EXPECT_TRUE(p.answers);
+  // silence 2.600001, D 0.030001, twice 4 (0.100001 + 0.005 + 0.030001), T 2.000001, 3 L
+  EXPECT_EQ(p.settled, us(10'105'001 + 2'600'001 + 30'001 + 2 * 4 * 135'002 + 2'000'001 + 15'000));
+
+  o.faults.flips = flipped_bits{{{}, instant{} + seconds(12)}, 0.01};
+  p = promised(o, 3, calm);
+  EXPECT_EQ(p.healed, instant{} + seconds(12));
+  EXPECT_EQ(p.hearing, us(12'105'001 + 5'000 + 30'000'001));           // L + forget later
+  EXPECT_EQ(p.genuine, us(42'110'002 + 2'000'000 + 600'001 + 5'000));  // the longest reign, 500 ms, P and L later
+
+  o.faults = {};
+  o.faults.late = late_copies{{{}, instant{} + seconds(3)}, 0.1, milliseconds(200), seconds(1)};
+  p = promised(o, 3, calm);
+  EXPECT_EQ(p.delay, seconds(1));
+  EXPECT_TRUE(p.overdue);
+  EXPECT_EQ(p.silence, microseconds(2'600'001 + 3 * 500'000));  // each robot may add what is unexpected
+  EXPECT_EQ(p.hearing, us(10'105'001)) << "the last late copy has arrived before";
+
+  o.faults = {};
+  o.faults.drifts = {{1, 100}};
+  p = promised(o, 3, calm);
+  EXPECT_EQ(p.hearing, calm + microseconds(105'000) + nanoseconds(10'000 + 100 + 1'000)) << "a ten-thousandth longer";
+
+  o.faults = {};
+  o.faults.confidences = {{0, {}, 3}};
+  EXPECT_FALSE(promised(o, 3, calm).answers);
 }
 
 TEST_F(invariants, belief_well_formed) {

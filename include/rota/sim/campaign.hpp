@@ -46,6 +46,7 @@ public:
     auto const drawn = static_cast<std::size_t>(uniform(engine_, 2, 7));
     run_.robots = robots.value_or(drawn);
     run_.team.seed = run_.seed;
+    run_.team.digests = true;
     draw_robot();
     draw_radio();
     draw_faults();

@@ -57,6 +57,8 @@ public:
   void operator()(log_record const& r) {
     if (broken_) return;
     count(r);
+    if (r.changed)
+      fail(invariant::nothing_changed, r, "a message of " + id(r.other) + " that does not count has changed it");
     if (r.what == happening::crashed || r.what == happening::left) {
       if (r.what == happening::crashed) views_[r.robot] = view(team_.size());
       views_[r.robot].held.reset();
@@ -65,8 +67,11 @@ public:
     if (r.what == happening::said_plan || r.what == happening::said_claim) leaders_[r.robot].spoke = r.time;
     if (r.what == happening::heard_plan && r.verdict != verdict::refused) hear_plan(r);
     if (!team_.plays(r.robot)) return;
+    if (r.what == happening::entered) views_[r.robot].abstains = false;
+    if (r.abstains) views_[r.robot].abstains = *r.abstains;
     if (r.what == happening::reign_began) begin_reign(r);
     if (r.what == happening::reign_renewed) renew_reign(r);
+    if (r.what == happening::heard_claim) hear_smaller(r);
     look_at_rule(r);
     if (r.what == happening::heard_claim) hear_claim(r);
     if (r.what == happening::deliberated) look_around(r);
@@ -90,6 +95,7 @@ private:
     instant heard{};  // on its own clock
     std::optional<identity> obeyed;
     instant end{};  // of that claim, on its own clock
+    std::optional<identity> answered;
   };
   struct view {
     explicit view(std::size_t robots) : peers(robots) {}
@@ -103,6 +109,7 @@ private:
     std::optional<in_force> held;
     std::optional<identity> answers;  // what it has just been challenged by
     std::size_t participants = 0;
+    bool abstains = false;
   };
   struct reign {
     identity what;
@@ -119,6 +126,7 @@ private:
   void fail(invariant what, log_record const& r, std::string why) {
     if (!broken_) broken_ = violation{what, r.time, r.robot, std::move(why)};
   }
+  [[nodiscard]] bool genuine(log_record const& r) const { return r.time >= promises_.genuine; }
   [[nodiscard]] auto const& mind(std::size_t i) const { return team_.robot(i); }
   [[nodiscard]] auto const& rule(std::size_t i) const { return *mind(i).rule(team_.book().type.id()); }
   [[nodiscard]] auto const& belief_of(std::size_t i) const { return *mind(i).believes(team_.book().type.id()); }
@@ -145,7 +153,7 @@ private:
     case happening::heard_plan:
       seen_.stale += r.verdict == verdict::stale ? 1 : 0;
       seen_.refused += r.verdict == verdict::refused ? 1 : 0;
-      if (r.verdict == verdict::refused && r.genuine && promises_.genuine && leaders_[r.other].orderly &&
+      if (r.verdict == verdict::refused && r.genuine && genuine(r) && leaders_[r.other].orderly &&
           r.reason != refusal::not_executed)
         fail(invariant::nothing_refused, r,
              "what " + id(r.other) + " said is refused, for reason " + std::to_string(static_cast<int>(r.reason)));
@@ -170,7 +178,7 @@ private:
     instant const now = local(r);
     bool const heard = r.verdict == verdict::accepted;
     bool const due = !p.last || m.number > *p.last || now - p.heard > promises_.forget;
-    if (promises_.genuine && heard != due)
+    if (genuine(r) && heard != due)
       fail(invariant::messages_heard, r,
            std::string(heard ? "accepts" : "drops") + " message " + std::to_string(m.number.sequence) + " of " +
                id(r.other) + ", life " + std::to_string(m.number.incarnation.value));
@@ -182,7 +190,7 @@ private:
     p.heard = now;
     p.dissents =
         std::any_of(m.types.begin(), m.types.end(), [](auto const& t) { return t.stance == stance::dissents; });
-    if (!promises_.genuine || !team_.plays(r.robot) || !rule(r.robot).obeying()) return;
+    if (!genuine(r) || !team_.plays(r.robot) || !rule(r.robot).obeying()) return;
     auto const& c = rule(r.robot).current();
     if (index(c.leader) != r.other || c.incarnation > m.number.incarnation) return;
     std::uint64_t leads = 0;
@@ -206,7 +214,7 @@ private:
       if (reign const* const x = find(*cause)) {
         mine.root = x->root;
         mine.hops = x->hops + 1;
-        if (promises_.genuine && mine.end > mine.root + mine.hops * (promises_.delay + promises_.slack))
+        if (genuine(r) && mine.end > mine.root + mine.hops * (promises_.delay + promises_.slack))
           fail(invariant::answers_inherit, r,
                "its answer ends " + shown(mine.end - mine.root) + " after the claim that began it all");
       }
@@ -217,7 +225,7 @@ private:
   void renew_reign(log_record const& r) {
     auto const& a = rule(r.robot);
     auto const& peers = views_[r.robot].peers;
-    if (promises_.genuine && std::none_of(peers.begin(), peers.end(), [](peer const& p) { return p.dissents; }))
+    if (genuine(r) && std::none_of(peers.begin(), peers.end(), [](peer const& p) { return p.dissents; }))
       fail(invariant::answers_inherit, r, "renews its reign, and nobody has told it to do otherwise");
     if (a.current().renewals > promises_.renewals)
       fail(invariant::reigns_bounded, r,
@@ -260,12 +268,12 @@ private:
     }
     if (now - v.held->since > promises_.longest_reign)
       return fail(invariant::reigns_bounded, r, "claim " + shown(x) + " in force for " + shown(now - v.held->since));
-    if (c.stamp != v.held->stamp && promises_.genuine)
+    if (c.stamp != v.held->stamp && genuine(r))
       return fail(invariant::greater_stamps, r, "the stamp of " + shown(x) + " has changed");
     v.held->end = a.expiry();
     if (own) return;
 
-    if (promises_.genuine && leaders_[x.leader].orderly) {
+    if (genuine(r) && leaders_[x.leader].orderly) {
       peer& p = v.peers[x.leader];
       if (p.obeyed && x < *p.obeyed)
         return fail(invariant::nothing_revives, r, "obeys " + shown(x) + " after " + shown(*p.obeyed));
@@ -291,13 +299,26 @@ private:
     return r.what == happening::heard_claim && c && index(c->leader) == held.leader && held < name(*c);
   }
 
+  /// A claim with a smaller stamp, while nobody rules here: it is answered, unless it was before. Confidences are equal, so
+  /// the greater robot has the greater stamp.
+  void hear_smaller(log_record const& r) {
+    view& v = views_[r.robot];
+    auto const& c = *std::get_if<claim<names>>(r.content);
+    peer& p = v.peers[r.other];
+    if (r.claim == claim_outcome::challenged) p.answered = name(c);
+    if (!promises_.answers || !r.genuine || !genuine(r) || r.claim != claim_outcome::adopted) return;
+    bool const ruled = v.abstains || (v.held && local(r) < v.held->end);
+    if (!ruled && r.other < r.robot && p.answered != name(c))
+      fail(invariant::smaller_answered, r, "obeys " + shown(name(c)) + " and has not answered it");
+  }
+
   /// A claim: one that its leader leads with is no ghost here; and who obeys has taken in all of it.
   void hear_claim(log_record const& r) {
     view& v = views_[r.robot];
     auto const& c = *std::get_if<claim<names>>(r.content);
     v.answers.reset();
     if (r.claim == claim_outcome::challenged) v.answers = name(c);
-    if (!r.claim || !r.genuine || !promises_.genuine) return;
+    if (!r.claim || !r.genuine || !genuine(r)) return;
     auto const& a = rule(r.robot);
     if (*r.claim != claim_outcome::expired && (!a.active() || a.current().stamp < c.stamp))
       return fail(invariant::claims_heeded, r, "hears " + shown(name(c)) + ", and a smaller stamp rules");
@@ -327,7 +348,7 @@ private:
       if (k > 0 && !(who[k - 1] < who[k])) return fail(invariant::belief_well_formed, r, "one takes part twice");
       auto const j = index(who[k]);
       if (j == r.robot) continue;
-      if (promises_.genuine && r.time - leaders_[j].spoke > promises_.silence)
+      if (genuine(r) && r.time - leaders_[j].spoke > promises_.silence)
         return fail(invariant::silent_forgotten, r,
                     "believes in " + id(j) + ", silent for " + shown(r.time - leaders_[j].spoke));
     }

@@ -52,6 +52,8 @@ struct log_record {
   rota::verdict verdict = verdict::accepted;  ///< on what was heard
   refusal reason = refusal::none;             ///< … if it was refused
   bool genuine = true;                        ///< what was heard is what `other` has said
+  std::optional<bool> abstains{};             ///< of a deliberation that searched: it found no valid allocation
+  bool changed = false;  ///< it was refused or stale, and has changed the robot's digest: see `simulation_options`
 };
 
 template <class F>

@@ -26,6 +26,8 @@ enum class invariant : unsigned char {
   claims_heeded,     ///< a claim that its leader still leads with has not ended here: its stamp rules, or a greater one
   no_orphans,        ///< nobody obeys a claim of which it has heard its leader say that it is over
   nothing_refused,   ///< no robot refuses what another has said
+  nothing_changed,   ///< a message that is refused or stale changes nothing about its receiver
+  smaller_answered,  ///< who hears a claim with a smaller stamp, while nobody rules, answers it, once
   belief_well_formed,  ///< at most one atom for each agent, each about a participant; no more participants than robots
   all_hear_all,        ///< healed, plus one period and delay: everybody believes that everybody takes part
   nobody_rules,        ///< settled: no authority is left
@@ -36,10 +38,10 @@ inline constexpr std::size_t invariant_count = static_cast<std::size_t>(invarian
 
 [[nodiscard]] constexpr std::string_view to_string(invariant i) noexcept {
   constexpr std::array<std::string_view, invariant_count> words{
-      "one leader",         "greater stamps",  "nothing revives",  "ends with leader",
-      "reigns bounded",     "answers inherit", "followers follow", "silent forgotten",
-      "messages heard",     "claims heeded",   "no orphans",       "nothing refused",
-      "belief well-formed", "all hear all",    "nobody rules",     "all agree"};
+      "one leader",      "greater stamps",   "nothing revives",  "ends with leader", "reigns bounded",
+      "answers inherit", "followers follow", "silent forgotten", "messages heard",   "claims heeded",
+      "no orphans",      "nothing refused",  "nothing changed",  "smaller answered", "belief well-formed",
+      "all hear all",    "nobody rules",     "all agree"};
   return words[static_cast<std::size_t>(i)];
 }
 
@@ -51,11 +53,12 @@ struct promises {
   duration forget{};           ///< who was not heard for longer may begin a new life with any number
   duration longest_reign{};    ///< of one claim
   std::uint32_t renewals = 0;  ///< so often a reign is renewed at most
-  instant healed{};            ///< nothing goes wrong any more
-  instant hearing{};           ///< all hear all
-  instant settled{};           ///< nobody rules, and all agree
-  bool overdue = false;        ///< messages may be under way for longer than `max_delay`
-  bool genuine = true;         ///< no bit flips: much is promised only of what was really said
+  instant genuine{};     ///< no bit that has flipped counts any more: much is promised only of what was really said
+  bool answers = false;  ///< all have equal confidence, and resolution on: who is greater answers
+  instant healed{};      ///< nothing goes wrong any more
+  instant hearing{};     ///< all hear all
+  instant settled{};     ///< nobody rules, and all agree
+  bool overdue = false;  ///< messages may be under way for longer than `max_delay`
 };
 
 /// What a team with these options promises if all see the same from `calm` on and no message is lost from `healed` on. With P
@@ -63,6 +66,8 @@ struct promises {
 ///
 /// * hearing: healed + P + L; if robots have come back with an equal or smaller incarnation, or bits have flipped, L + `forget`
 ///   later.
+/// * genuine: from the beginning, if no bit flips; else when all hear all and what was forged has ended: hearing + the longest
+///   reign + `max_delay` + P + L, for a plan message ends what is left of a forged claim.
 /// * settled: hearing + silence + L + one claim period + D until nobody believes in who is gone, A until all agree, T + m·L
 ///   until the authority of the last detection has ended, and A again.
 [[nodiscard]] inline promises promised(simulation_options const& o, std::size_t robots, instant calm) {
@@ -88,12 +93,13 @@ struct promises {
   p.silence = slow(o.robot.silence + o.robot.claim_period) + o.robot.max_delay + m * unexpected;
   p.forget = o.robot.forget;
   p.overdue = unexpected > duration{};
-  p.genuine = !f.flips;
   p.healed = (std::max)(f.healed(), calm);
   bool disorder = f.flips.has_value();
   for (std::size_t i = 0; i < robots; ++i) disorder = disorder || !f.orderly(i);
   p.hearing =
       p.healed + slow(o.robot.message_period) + in_time + (disorder ? in_time + slow(o.robot.forget) : duration{});
+  if (f.flips) p.genuine = p.hearing + slow(o.robot.max_reign + o.robot.max_delay + o.robot.message_period) + in_time;
+  p.answers = o.robot.resolution && f.confidences.empty() && !o.stamp;
   duration const loop = slow(o.clock.loop + nanoseconds(o.clock.loop.ns / 1'000'000 * o.clock.loop_spread_ppm));
   duration const agreement = (m + 1) * (slow(o.robot.message_period) + in_time + loop);
   p.settled = p.hearing + p.silence + loop + agreement + slow(o.robot.reign) + m * in_time + agreement;

@@ -29,6 +29,7 @@ struct simulation_options {
   /// How sure each robot is of its claims; if empty, as `robot` says. What it throws leaves `run`, which can be called again: the
   /// robot has missed one deliberation.
   stamp_function stamp;
+  bool digests = false;  ///< look whether messages that do not count change who hears them
 };
 
 /// A team of robots in virtual time: discrete events, a scripted world, and the same `robot` that a real robot runs.
@@ -53,7 +54,8 @@ public:
         network_(options.network, members_.size(), options.seed),
         air_(options.faults, members_.size(), options.seed),
         faults_(options.faults),
-        stamp_(options.stamp) {
+        stamp_(options.stamp),
+        digests_(options.digests) {
     for (std::size_t i = 0; i < members_.size(); ++i) {
       auto engine = engine_for(options.seed, stream::clock, i);
       robot_clock clock(options.clock, options.robot.message_period, engine);
@@ -264,6 +266,7 @@ private:
     details more;
     more.cycles = d.cycles;
     more.detected = d.detected.has_value();
+    if (d.search) more.abstains = !d.search->plan;
     if (d.deleted.empty()) {
       tell(observe, i, happening::deliberated, d.event, more);
     } else {
@@ -298,7 +301,9 @@ private:
     if (!r.up) return;
     auto const flipped = air_.flipped(b.content, b.sender, e.robot, now_);
     message<names> const& heard = flipped ? *flipped : b.content;
-    auto answer = r.mind.receive(heard, r.clock.local(now_));
+    instant const local = r.clock.local(now_);
+    auto const before = digests_ ? r.mind.digest(local) : 0;
+    auto answer = r.mind.receive(heard, local);
     details more;
     more.other = b.sender;
     more.claim = answer.claim;
@@ -306,6 +311,7 @@ private:
     more.verdict = answer.verdict;
     more.reason = answer.reason;
     more.genuine = !flipped;
+    more.changed = digests_ && answer.verdict != verdict::accepted && r.mind.digest(local) != before;
     bool const plan = std::holds_alternative<plan_message<names>>(heard);
     if (plan && b.beside && answer.verdict == verdict::accepted) r.notes.hear(b.sender, *b.beside, r.clock.local(now_));
     auto const change = answer.changes.empty() ? std::move(answer.imposed) : answer.changes[0].part.event();
@@ -376,6 +382,8 @@ private:
     rota::verdict verdict = verdict::accepted;
     refusal reason = refusal::none;
     bool genuine = true;
+    std::optional<bool> abstains{};
+    bool changed = false;
   };
 
   template <class Observer>
@@ -386,7 +394,7 @@ private:
     auto const* const rule = mind.rule(book_.type.id());
     observe(log_record{now_, i, what, change, believed ? believed->atoms() : nothing_, world_.state(), more.other,
                        more.cycles, more.detected, rule && rule->leading(), more.superseded, more.claim, more.content,
-                       more.verdict, more.reason, more.genuine});
+                       more.verdict, more.reason, more.genuine, more.abstains, more.changed});
   }
 
   template <class Observer>
@@ -410,6 +418,7 @@ private:
   interference air_;
   faults faults_;
   stamp_function stamp_;
+  bool digests_;
   std::vector<upheaval> upheavals_;
   std::vector<robot_record> robots_;
   perceived unseen_;
