@@ -282,7 +282,7 @@ void add_sweep(CLI::App& program, command& chosen) {
       ->check(within(20, 1000, "a whole number from 20 to 1000"));
   list("--cycles", o->cycles, "n, of rota")->check(within(1, 1000, "a whole number from 1 to 1000"));
   list("--reign", o->reigns, "how long rota's leaders reign")->check(CLI::IsMember({"fixed", "renewed"}));
-  list("--stamp", o->stamps, "who of rota's claimants leads")->check(CLI::IsMember({"id"}));
+  list("--stamp", o->stamps, "who of rota's claimants leads")->check(CLI::IsMember(words(sim::all_stamp_policies)));
   sub.add_option("--minutes", o->minutes, "simulated time of each game")
       ->check(within(0.01, 1440.0, "a number of minutes from 0.01 to 1440"))
       ->capture_default_str();

@@ -1,6 +1,7 @@
 #include "sweep.hpp"
 
 #include <rota/sim/closed/play.hpp>
+#include <rota/sim/stamps.hpp>
 
 #include <algorithm>
 
@@ -24,6 +25,7 @@ std::array<std::optional<double>, quantities> play_cell(sim::playbook const& boo
   robot.fingerprints = cell.period_ms > 100;
   if (cell.cycles > 0) robot.cycles = cell.cycles;
   if (cell.reign == "fixed") robot.renewals = 0;
+  if (auto const stamp = sim::parse_stamp_policy(cell.stamp)) o.rules.stamp = sim::function_of(*stamp);
   auto const f = play_game(book, *parse_way(cell.system), o);
 
   std::array<std::optional<double>, quantities> out;
@@ -31,6 +33,7 @@ std::array<std::optional<double>, quantities> play_cell(sim::playbook const& boo
     if (any) out[static_cast<std::size_t>(m)] = x;
   };
   bool const reacted = f.reactions.count() > 0, led = f.reigns > 0, fought = f.episodes.count() > 0;
+  bool const ruled = cell.system == "rota" || cell.system == "alica";
   double const robots = static_cast<double>(cell.robots);
   put(quantity::not_one, f.incoherent());
   put(quantity::wrong, f.share(f.wrong));
@@ -41,7 +44,7 @@ std::array<std::optional<double>, quantities> play_cell(sim::playbook const& boo
   put(quantity::reaction_p95, f.reactions.percentile_ms(95), reacted);
   put(quantity::missed, f.missed_share(), reacted || f.missed > 0);
   put(quantity::to_ball, f.time_to_ball_ms());
-  put(quantity::reigns, f.per_second(f.reigns) * 3600);
+  put(quantity::reigns, f.per_second(f.reigns) * 3600, ruled);
   put(quantity::right, static_cast<double>(f.right) / static_cast<double>(led ? f.reigns : 1), led);
   put(quantity::messages, f.per_second(f.messages) / robots);
   put(quantity::bytes, f.per_second(f.bytes) / robots);

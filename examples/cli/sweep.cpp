@@ -5,6 +5,8 @@
 #include "report.hpp"
 #include "text.hpp"
 
+#include <rota/sim/stamp_policy.hpp>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -35,13 +37,17 @@ strings const every_system{"rota", "silent", "alica", "central", "majority", "st
 strings const calm_or_deluded{"none", "delusion"};
 
 std::vector<named_table> const& named_tables() {
+  std::string const best{to_string(sim::best_stamp_policy)};
+  strings stamps;
+  for (auto const p : sim::all_stamp_policies) stamps.emplace_back(to_string(p));
   static std::vector<named_table> const all{
       {"beside", every_system, {"none", "delusion", "mixed", "breakdowns"}, {}, {}, {}, {}, {}, {}},
       {"loss", every_system, calm_or_deluded, {}, {}, {0, 0.2, 0.6}, {}, {}, {}},
       {"rate", every_system, calm_or_deluded, {}, {}, {}, {}, {100, 200, 500}, {}},
       {"team", every_system, calm_or_deluded, {}, {}, {}, {3, 4, 5}, {}, {}},
       {"cycles", {"rota"}, {"none", "delusion", "mixed"}, {}, {}, {}, {}, {}, {2, 3, 4, 5, 6}},
-      {"reign", {"rota"}, {"none", "delusion", "mixed"}, {"fixed", "renewed"}, {}, {0.02, 0.6}, {}, {}, {}}};
+      {"reign", {"rota"}, {"none", "delusion", "mixed"}, {"fixed", "renewed"}, {"id", best}, {0.02, 0.6}, {}, {}, {}},
+      {"stamp", {"rota"}, {"none", "delusion", "mixed"}, {}, stamps, {}, {}, {}, {}}};
   return all;
 }
 
@@ -61,7 +67,7 @@ std::vector<sweep_cell> cells_of(sweep_options const& o) {
   for (auto const& x : named_tables())
     if (o.table == x.name) t = &x;
   auto const reigns = given_or<std::string>(o.reigns, t->reigns, {"renewed"});
-  auto const stamps = given_or<std::string>(o.stamps, t->stamps, {"id"});
+  auto const stamps = given_or<std::string>(o.stamps, t->stamps, {std::string(to_string(sim::best_stamp_policy))});
   auto const cycles = given_or<std::uint32_t>(o.cycles, t->cycles, {4});
   std::vector<sweep_cell> out;
   sweep_cell c;

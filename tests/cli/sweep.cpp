@@ -16,7 +16,7 @@ class rota_sweep : public program_test {};
 
 /// A short one: two systems, two seeds, games of half a second.
 run_result sweep(std::vector<std::string> more) {
-  std::vector<std::string> all{"sweep",   "--system", "rota,central", "--trouble", "delusion",
+  std::vector<std::string> all{"sweep",   "--system", "rota,central", "--trouble", "mixed",
                                "--seeds", "2",        "--minutes",    "0.01"};
   all.insert(all.end(), more.begin(), more.end());
   return rota_program(all);
@@ -52,6 +52,16 @@ TEST_F(rota_sweep, prints_means_with_intervals_in_json_and_as_a_table) {
   auto const text = sweep({"--rows", rows, "--loss", "0,0.5"}).output;
   for (auto const* part : {"5 robots", "2 games of 0.01 minutes a line", "not one %", "50.0 %", "rota", "central", "±"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " not in:\n" << text;
+}
+
+/// A stamp is of rota's robots only, and says more on the air.
+TEST_F(rota_sweep, plays_stamp_policies) {
+  auto const r = sweep({"--json", "--stamp", "id,mates"});
+  ASSERT_EQ(r.status, 0) << r.complaint;
+  auto const out = json::parse(r.output, nullptr, false);
+  ASSERT_EQ(out["lines"].size(), 3u);
+  EXPECT_EQ(out["lines"][2]["stamp"], "-");
+  EXPECT_GT(out["lines"][1]["bytes_per_second"]["mean"], out["lines"][0]["bytes_per_second"]["mean"]);
 }
 
 TEST_F(rota_sweep, does_not_depend_on_the_number_of_threads) {
@@ -120,7 +130,7 @@ TEST_F(rota_sweep, on_a_full_disk_ends_with_whole_rows_and_goes_on_later) {
   sandbox box;
   auto const file = box.path("rows");
   auto const command = "trap '' XFSZ; ulimit -f 3; '" ROTA_PROGRAM
-                       "' sweep --system rota,central --trouble delusion --seeds 2 "
+                       "' sweep --system rota,central --trouble mixed --seeds 2 "
                        "--minutes 0.01 --json --rows '" +
                        file + "' >'" + box.path("out") + "' 2>'" + box.path("err") + "'";
   int const status = std::system(command.c_str());
@@ -139,13 +149,13 @@ TEST_F(rota_sweep, on_a_full_disk_ends_with_whole_rows_and_goes_on_later) {
 TEST_F(rota_sweep, draws_a_point_for_each_line) {
   sandbox box;
   auto const file = box.path("chart.svg");
-  auto const r = rota_program({"sweep", "--system", "rota,central", "--trouble", "delusion", "--seeds", "2",
-                               "--minutes", "0.2", "--chart", file});
+  auto const r = rota_program(
+      {"sweep", "--system", "rota,central", "--trouble", "mixed", "--seeds", "2", "--minutes", "0.2", "--chart", file});
   ASSERT_EQ(r.status, 0) << r.complaint;
   auto const svg = slurp(file);
   EXPECT_TRUE(svg.starts_with("<svg xmlns="));
   EXPECT_TRUE(svg.ends_with("</svg>\n"));
-  for (auto const* part : {">rota</text>", ">central</text>", "trouble: delusion", "<circle"})
+  for (auto const* part : {">rota</text>", ">central</text>", "trouble: mixed", "<circle"})
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   expect_complaint(sweep({"--chart", box.path("no/chart.svg")}), {"no/chart.svg", "No such file"});

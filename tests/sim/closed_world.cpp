@@ -1,6 +1,7 @@
 #include "sim/plays.hpp"
 
 #include <rota/sim/closed/play.hpp>
+#include <rota/sim/restless_world.hpp>
 
 #include <gtest/gtest.h>
 
@@ -68,9 +69,11 @@ TEST(closed_world, opponents_kick_as_often_as_they_should) {
 /// In 450 s each of five robots is deluded in each of three ways.
 TEST(closed_world, delusions_go_round) {
   closed_world w(trouble::delusion, 5, 1);
+  w.advance(instant{} + seconds(30) - milliseconds(10));
+  for (robot_state const& r : w.state().robots) EXPECT_TRUE(!r.phantom && r.pose_error == point{});
   std::vector<int> near_itself(5), elsewhere(5), lost(5);
   for (int round = 0; round < 15; ++round) {
-    w.advance(instant{} + seconds(30 * round) + milliseconds(20));
+    w.advance(instant{} + seconds(30 * (round + 1)) + milliseconds(20));
     std::size_t deluded = 0;
     for (std::size_t i = 0; i < 5; ++i) {
       robot_state const& r = w.state().robots[i];
@@ -219,9 +222,36 @@ TEST(closed_game, a_lasting_delusion_is_a_lasting_quarrel_unless_somebody_leads)
   game_options o;
   o.what = trouble::delusion;
   o.length = seconds(60);
+  o.world.sane = {};
   auto const without = play_game(book, way::silent, o);
   EXPECT_GT(without.incoherent(), 0.2);
   EXPECT_LT(play_game(book, way::rota, o).incoherent(), without.incoherent() / 2);
+}
+
+/// A stamp policy is asked at each deliberation, and hears what all mates have seen.
+TEST(closed_game, stamps_know_what_mates_have_said) {
+  auto const book = soccer();
+  game_options o;
+  o.length = seconds(1);
+  o.sensor = exact_sensor();
+  std::size_t asked = 0, heard_all = 0, agreed = 0;
+  o.rules.stamp = [&](knowledge const& k) -> std::uint32_t {
+    ++asked;
+    std::size_t heard = 0, agree = 0;
+    for (auto const& t : k.told)
+      if (t) ++heard, agree += distance(t->ball, k.seen.ball) < metres(0.01) ? 1 : 0;
+    heard_all += heard == 4;
+    agreed += agree == 4;
+    return 0;
+  };
+  auto const with = play_game(book, way::rota, o);
+  EXPECT_GT(asked, 400u);
+  EXPECT_GT(heard_all, asked * 9 / 10);
+  EXPECT_GT(agreed, asked / 2);
+  o.rules.stamp = {};
+  auto const without = play_game(book, way::rota, o);
+  EXPECT_EQ(with.messages, without.messages);
+  EXPECT_GE(with.bytes, without.bytes + 5 * without.messages);
 }
 
 /// Every 20 s one robot is off for 5 s: the others go on, and it takes part again.

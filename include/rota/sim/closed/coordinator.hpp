@@ -1,5 +1,6 @@
 #pragma once
 
+#include <rota/sim/knowledge.hpp>
 #include <rota/sim/playbook.hpp>
 #include <rota/team/robot.hpp>
 
@@ -15,6 +16,7 @@ struct rules {
   duration message_period = milliseconds(100);  ///< nobody is silent for longer
   duration gap = milliseconds(10);              ///< nobody speaks sooner after the last message, whatever is new
   duration silence = seconds(1);                ///< who was not heard for longer is believed to be off
+  stamp_function stamp;                         ///< of `rota::robot`: how sure it is of its claims, if it says so
   robot_options robot;                          ///< of `rota::robot`: what the three above do not say
 };
 

@@ -28,6 +28,11 @@ struct game_options {
   clock_options clock;
   network_options network;
   sensor_options sensor;
+
+  /// When measuring begins: not before somebody is deluded.
+  [[nodiscard]] instant begin() const {
+    return instant{} + warm_up + (what == trouble::delusion ? world.sane : duration{});
+  }
 };
 
 /// A team in virtual time that moves in its world as it decides.
@@ -45,7 +50,7 @@ public:
         members_(team_of(o.robots)),
         world_(o.what, o.robots, o.seed, o.world),
         network_(o.network, o.robots, o.seed),
-        tally_(o.robots, instant{} + o.warm_up) {
+        tally_(o.robots, o.begin()) {
     for (std::size_t i = 0; i < o.robots; ++i) {
       auto engine = engine_for(o.seed, stream::clock, i);
       robot_clock const clock(o.clock, o.rules.message_period, engine);
@@ -80,7 +85,7 @@ public:
 
   /// Plays it to its end. Call it once.
   [[nodiscard]] game_figures play() {
-    instant const begin = instant{} + options_.warm_up;
+    instant const begin = options_.begin();
     run(begin);
     auto const won = world_.won();
     auto const free = world_.free();

@@ -23,6 +23,7 @@ namespace rota::sim::closed {
   case way::cbba: return game<auction_coordinator>(book, o).play();
   case way::alica: {
     o.rules.robot = {};
+    o.rules.stamp = {};
     o.rules.robot.renewals = 0;
     return game<robot_coordinator<literal_monitor<names>>>(book, o).play();
   }

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <rota/sim/closed/coordinator.hpp>
+#include <rota/sim/closed/talk.hpp>
+#include <rota/sim/knowledge.hpp>
 #include <rota/team/monitors/literal.hpp>
 #include <rota/team/wire.hpp>
 
@@ -8,6 +9,9 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
 
 namespace rota::sim::closed {
 
@@ -15,22 +19,50 @@ namespace rota::sim::closed {
 template <class Monitor>
 class robot_coordinator {
 public:
-  using message = rota::message<names>;
+  /// With a stamp policy, what it has seen goes beside each plan message.
+  struct message {
+    rota::message<names> said;
+    std::optional<testimony> beside;
+  };
 
-  robot_coordinator(post const& p, instant now) : book_(p.book), members_(p.members), mind_(make(p)) {
+  robot_coordinator(post const& p, instant now)
+      : self_(p.self),
+        book_(p.book),
+        members_(p.members),
+        stamp_(p.rules.stamp),
+        mind_(make(p)),
+        told_(p.robots),
+        leapt_(now) {
     mind_.enter(book_->type, now);
   }
 
-  void tick(perceived const& seen, instant now) { (void)mind_.deliberate(book_->type, *members_, seen, now, space_); }
-  void receive(message const& m, instant now) { (void)mind_.receive(m, now); }
-  [[nodiscard]] std::optional<message> next_message(instant now) { return mind_.next_message(now); }
+  void tick(perceived const& seen, instant now) {
+    if (stamp_) {
+      if (mine_ && distance(mine_->self, seen.robots[self_]) >= knowledge::leap) leapt_ = now;
+      mine_ = testimony{{}, seen.robots[self_], seen.ball, seen.blind, now - leapt_ <= knowledge::doubt};
+      mind_.set_confidence(stamp_(knowledge{self_, now, seen, mine_->relocated, told_, *book_, *members_, space_}));
+    }
+    (void)mind_.deliberate(book_->type, *members_, seen, now, space_);
+  }
+  void receive(message const& m, instant now) {
+    if (mind_.receive(m.said, now).verdict != verdict::accepted || !m.beside) return;
+    auto& told = told_[std::get<plan_message<names>>(m.said).sender.value - 1];
+    told = m.beside;
+    told->heard = now;
+  }
+  [[nodiscard]] std::optional<message> next_message(instant now) {
+    auto said = mind_.next_message(now);
+    if (!said) return std::nullopt;
+    bool const plan = std::holds_alternative<plan_message<names>>(*said);
+    return message{*std::move(said), plan ? mine_ : std::nullopt};
+  }
   [[nodiscard]] instant next_due() const { return mind_.next_due(); }
   [[nodiscard]] allocation_atoms<names> const& believed() const { return mind_.believes(book_->type.id())->atoms(); }
   /// Whether it leads, so that a game counts reigns.
   [[nodiscard]] bool reigns() const { return mind_.rule(book_->type.id())->leading(); }
   [[nodiscard]] static std::size_t bytes(message const& m) {
     std::array<std::byte, 512> buffer{};
-    return encode(m, buffer).value();
+    return encode(m.said, buffer).value() + (m.beside ? 1 + bytes_of(m.beside->self) + bytes_of(m.beside->ball) : 0);
   }
 
 private:
@@ -43,9 +75,14 @@ private:
     return {p.agent(), p.members->agents(), incarnation{p.life}, o};
   }
 
+  std::size_t self_;
   playbook const* book_;
   team<names> const* members_;
+  stamp_function stamp_;
   rota::robot<names, Monitor> mind_;
+  std::vector<std::optional<testimony>> told_;
+  std::optional<testimony> mine_;
+  instant leapt_;  // when it last began to believe that it is elsewhere, or to look
   workspace space_;
 };
 

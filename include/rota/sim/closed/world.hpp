@@ -46,6 +46,7 @@ struct world_numbers {
   double taken_per_minute = 6;                ///< so often opponents kick the ball
   duration between_breakdowns = seconds(20);  ///< `trouble::breakdowns`
   duration breakdown = seconds(5);
+  duration sane = seconds(30);  ///< so long after the beginning nobody is deluded: `trouble::delusion`
 };
 
 /// Field, ball and robots. A kick takes no time: the ball is next seen where it lies still. Then whoever goes for the ball
@@ -64,6 +65,7 @@ public:
     ROTA_ASSERT(robots >= 2 && robots <= max_robots);
     for (std::size_t i = 0; i < robots; ++i) state_.robots.push_back({formation_spot(i), {}, {}});
     for (std::size_t i = 0; i < robots; ++i) goals_[i].where = formation_spot(i);
+    next_round_ = instant{} + numbers.sane;
     kick();
   }
 
