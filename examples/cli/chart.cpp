@@ -49,8 +49,9 @@ std::string panel(sweep_table const& t, std::string const& trouble) {
   scale const across{10, most, left, width - 20};
   scale const up{1e-4, 1, height - bottom, top};
   std::string out = text(left, top - 14, "trouble: " + trouble, " font-weight=\"bold\"");
-  for (double const ms : {10, 20, 30, 50, 100, 200, 300, 500, 1000, 2000, 3000, 5000, 10000}) {
-    if (ms > most) break;
+  for (double const ms : {10, 20, 30, 50, 100, 200, 500, 1000, 10'000, 100'000}) {
+    bool const round = ms == 10 || ms == 100 || ms >= 1000;
+    if (ms > most || (most > 1000 && !round) || (most > 100 && ms == 30)) continue;
     out += line(across.at(ms), up.from, across.at(ms), up.to, "#e4e4e4");
     out += text(across.at(ms), up.from + 16, number(ms), " text-anchor=\"middle\"");
   }
