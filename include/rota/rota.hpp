@@ -34,5 +34,6 @@
 #include <rota/team/monitors/literal.hpp>
 #include <rota/team/monitors/repetition.hpp>
 #include <rota/team/reception_counts.hpp>
+#include <rota/team/relay.hpp>
 #include <rota/team/robot.hpp>
 #include <rota/team/wire.hpp>

@@ -31,6 +31,8 @@ template <vocabulary V>
 struct claim_stamp;
 template <vocabulary V>
 class authority;
+template <vocabulary V>
+class relay;
 template <vocabulary V, class Monitor>
 class robot;
 
