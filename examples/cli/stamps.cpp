@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,7 +52,11 @@ stamp_cell measure(sim::playbook const& book, chooser const& c, sim::scenario wh
           estimated(p95),   estimated(missed)};
 }
 
-std::string tenths(double x) { return number(static_cast<double>(static_cast<std::int64_t>(x * 10 + 0.5)) / 10); }
+std::string tenths(double x) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f", x);
+  return text.data();
+}
 
 std::string in_percent(estimate const& e) {
   if (e.games == 0) return "-";
