@@ -37,7 +37,7 @@ std::string line(double x, double y, double x2, double y2, std::string const& co
          "\" stroke=\"" + colour + "\"/>\n";
 }
 
-constexpr double width = 430, height = 420, left = 60, top = 50, bottom = 60;
+constexpr double panel_width = 430, panel_height = 420, margin_left = 60, margin_top = 50, margin_bottom = 60;
 
 std::string panel(sweep_table const& t, std::string const& trouble) {
   double slowest = 0;
@@ -46,9 +46,9 @@ std::string panel(sweep_table const& t, std::string const& trouble) {
       slowest = (std::max)(slowest, l.figures[static_cast<std::size_t>(quantity::reaction)].mean);
   double most = 100;
   while (most < slowest) most *= 10;
-  scale const across{10, most, left, width - 20};
-  scale const up{1e-4, 1, height - bottom, top};
-  std::string out = text(left, top - 14, "trouble: " + trouble, " font-weight=\"bold\"");
+  scale const across{10, most, margin_left, panel_width - 20};
+  scale const up{1e-4, 1, panel_height - margin_bottom, margin_top};
+  std::string out = text(margin_left, margin_top - 14, "trouble: " + trouble, " font-weight=\"bold\"");
   for (double const ms : {10, 20, 30, 50, 100, 200, 500, 1000, 10'000, 100'000}) {
     bool const round = ms == 10 || ms == 100 || ms >= 1000;
     if (ms > most || (most > 1000 && !round) || (most > 100 && ms == 30)) continue;
@@ -59,7 +59,7 @@ std::string panel(sweep_table const& t, std::string const& trouble) {
     out += line(across.from, up.at(share), across.to, up.at(share), "#e4e4e4");
     out += text(across.from - 6, up.at(share) + 4, number(share * 100) + " %", " text-anchor=\"end\"");
   }
-  out += text((across.from + across.to) / 2, height - 22, "mean reaction to a true change of the ball, ms",
+  out += text((across.from + across.to) / 2, panel_height - 22, "mean reaction to a true change of the ball, ms",
               " text-anchor=\"middle\"");
   std::vector<std::pair<double, double>> labels;
   for (auto const& l : t.lines) {
@@ -101,14 +101,14 @@ std::string as_chart(sweep_table const& t) {
   auto const columns = (std::min<std::size_t>)(troubles.size(), 2);
   auto const rows = (troubles.size() + 1) / 2;
   std::string out =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + whole(width * static_cast<double>(columns)) + " " +
-      whole(height * static_cast<double>(rows) + 20) +
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + whole(panel_width * static_cast<double>(columns)) +
+      " " + whole(panel_height * static_cast<double>(rows) + 20) +
       "\" font-family=\"sans-serif\" font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" "
       "fill=\"white\"/>\n" +
-      text(left, 18, "full: time without exactly one attacker; hollow: … or with the wrong one; bar: 95 %");
+      text(margin_left, 18, "full: time without exactly one attacker; hollow: … or with the wrong one; bar: 95 %");
   for (std::size_t i = 0; i < troubles.size(); ++i)
-    out += "<g transform=\"translate(" + whole(width * static_cast<double>(i % 2)) + " " +
-           whole(20 + height * static_cast<double>(i / 2)) + ")\">\n" + panel(t, troubles[i]) + "</g>\n";
+    out += "<g transform=\"translate(" + whole(panel_width * static_cast<double>(i % 2)) + " " +
+           whole(20 + panel_height * static_cast<double>(i / 2)) + ")\">\n" + panel(t, troubles[i]) + "</g>\n";
   return out + "</svg>\n";
 }
 
