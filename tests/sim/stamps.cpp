@@ -205,7 +205,7 @@ TEST(stamps, what_a_policy_throws_reaches_the_caller_and_the_simulation_goes_on)
 TEST(stamps, consensus_is_right_far_more_often_than_the_greatest_id) {
   auto const book = soccer();
   std::uint64_t right[2] = {}, terms[2] = {};
-  for (auto const s : {scenario::ball_fight, scenario::phantom_none, scenario::mislocalised})
+  for (auto const s : {scenario::ball_fight, scenario::mislocalised})
     for (int i = 0; i < 2; ++i) {
       auto options = brief(s, true);
       options.team.stamp = function_of(i == 0 ? stamp_policy::id : best_stamp_policy);
@@ -213,8 +213,8 @@ TEST(stamps, consensus_is_right_far_more_often_than_the_greatest_id) {
       right[i] += f.right;
       terms[i] += f.terms();
     }
-  EXPECT_LT(100 * right[0], 75 * terms[0]);
-  EXPECT_GT(100 * right[1], 88 * terms[1]);
+  EXPECT_LT(100 * right[0], 70 * terms[0]);
+  EXPECT_GT(100 * right[1], 85 * terms[1]);
 }
 
 }  // namespace
