@@ -55,8 +55,9 @@ struct reception {
   /// By a plan message with fingerprints: types that nobody rules here, in which the sender believes something else, about
   /// whomever.
   small_vector<typename V::plan_type, 1> disagreements;
-  /// Whether it is news (of types that the robot does not execute, `relay` tells). Where not everybody hears everybody, whoever forwards each message that is news, and no other,
-  /// lets every message reach everybody and end: copies and disorder do no harm.
+  /// Whether it is news. Where not everybody hears everybody, whoever forwards each message that is news, and no other,
+  /// lets every message reach everybody and end: copies and disorder do no harm. Of types that the robot does not execute,
+  /// `relay` tells.
   bool relay = false;
 };
 
