@@ -112,8 +112,8 @@ TEST_F(corners, a_clock_set_back_moves_the_ends_of_claims_and_the_ages_of_what_m
   insistence.on_message(moved, at(1000));
   (void)insistence.on_deliberation({}, {does(2, attack)}, at(1000));
   insistence.shift(milliseconds(-900));
-  insistence.on_message(moved, at(2500));
-  EXPECT_FALSE(insistence.on_deliberation({}, {does(2, attack)}, at(2500)).detected) << "2.4 s later";
+  insistence.on_message(moved, at(3500));
+  EXPECT_FALSE(insistence.on_deliberation({}, {does(2, attack)}, at(3500)).detected) << "3.4 s later";
 }
 
 TEST_F(corners, cycles_before_a_pause_do_not_count) {
@@ -253,8 +253,8 @@ TEST_F(corners, a_clock_set_back_moves_what_a_robot_insisted_on) {
   a.receive(says(2, 1, attack), at(10'000));
   EXPECT_FALSE(think(a, sees(1), at(10'000)).detected);
   EXPECT_FALSE(think(a, sees(1), at(1'000)).detected);
-  a.receive(says(2, 2, attack), at(3'500));
-  EXPECT_FALSE(think(a, sees(1), at(3'500)).detected) << "2.5 s later";
+  a.receive(says(2, 2, attack), at(4'500));
+  EXPECT_FALSE(think(a, sees(1), at(4'500)).detected) << "3.5 s later";
 }
 
 TEST_F(corners, a_late_copy_of_a_claim_makes_nobody_whom_it_names_younger) {

@@ -40,7 +40,7 @@ public:
       auto const said = *std::exchange(w.said, std::nullopt);
       auto const believed = part_of<V>(atoms, w.sender);
       bool const accepted = !believed.empty() && believed.front() == said;
-      bool const again = w.count > 0 && said == w.overridden && w.heard - w.last <= 2 * options_.pending_age;
+      bool const again = w.count > 0 && said == w.overridden && w.heard - w.last <= 3 * options_.pending_age;
       if (accepted) {
         w.yielded = true;
         if (said == w.overridden) w.count = 0;
