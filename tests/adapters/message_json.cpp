@@ -62,6 +62,7 @@ claim a_claim() {
   c.version = 3;
   c.remaining = rota::milliseconds(1970);
   c.renewals = 1;
+  c.answers = 2;
   return c;
 }
 
@@ -70,7 +71,7 @@ constexpr auto plan_text =
     R"([{"type": -1, "leads": 2, "place": {"plan": -3, "task": 4, "state": 2}, "fingerprint": 305419896}, )"
     R"({"type": 5, "leads": 0, "stance": "abstains"}]}})";
 constexpr auto claim_text =
-    R"({"rota": 2, "claim": {"type": -1, "leader": 9, "incarnation": 1796000000, "number": 2, "version": 3, "renewals": 1, )"
+    R"({"rota": 2, "claim": {"type": -1, "leader": 9, "incarnation": 1796000000, "number": 2, "version": 3, "renewals": 1, "answers": 2, )"
     R"("confidence": 5, "stamp": 9, "remaining_us": 1970000, "plan": -3, "atoms": [{"agent": 1, "task": 4, "age_ms": 17}, )"
     R"({"agent": 9, "task": 18446744073709551615, "age_ms": 0}]}})";
 

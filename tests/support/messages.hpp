@@ -53,6 +53,7 @@ rc::Gen<rota::message<V>> any_message() {
     c.number = *any_number();
     c.version = *any_number();
     c.renewals = static_cast<std::uint32_t>(*any_number());
+    c.answers = static_cast<std::uint32_t>(*any_number());
     c.remaining = rota::microseconds(static_cast<std::int64_t>(*any_number() >> 12));
     return rota::message<V>{c};
   });

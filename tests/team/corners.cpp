@@ -344,7 +344,7 @@ TEST_F(corners, bytes_of_too_many_types_or_of_a_reign_without_end_are_refused) {
   for (std::uint64_t const us : {std::uint64_t{2'000'000}, std::uint64_t{1} << 62}) {
     auto const m = decoded([&](auto& w) {
       w.byte(0xa5);
-      for (int k = 0; k < 8; ++k) w.number(1);
+      for (int k = 0; k < 9; ++k) w.number(1);
       w.number(us);
       w.number(0);
     });

@@ -7,7 +7,9 @@
 #include <rota/team/print.hpp>
 
 #include <optional>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace dissent_test {
 
@@ -159,6 +161,120 @@ TEST_F(dissent, costs_nothing_where_nobody_renews) {
   EXPECT_EQ(stands(a, start + milliseconds(100)), stance::none);
 }
 
+/// A plan message may overtake the new claim. It must not free who obeys the one before: or else the conflict is back for a moment,
+/// and who leads is not open again.
+TEST_F(dissent, a_plan_message_that_comes_before_the_renewal_frees_nobody) {
+  auto a = in_play(1);
+  a.set_confidence(3);
+  a.receive(says(9, 1, defend), start);
+  auto c = claim_by(9, 9);
+  c.stamp.confidence = 4;
+  a.receive(c, start);
+  auto leads_on = says(9, 2, attack);
+  leads_on.claims = leads_on.types[0].leads = 2;
+  a.receive(leads_on, start + milliseconds(1510));
+  EXPECT_TRUE(a.rule(play_id)->obeying());
+  c.number = 2;
+  c.renewals = 1;
+  c.stamp.confidence = 2;
+  EXPECT_EQ(a.receive(c, start + milliseconds(1540)).claim, rota::claim_outcome::challenged);
+  // A leader that has made other claims since and leads with none frees it.
+  auto b = in_play(1);
+  b.receive(claim_by(9, 9), start);
+  auto over = says(9, 3, attack);
+  over.claims = 2;
+  b.receive(over, start + milliseconds(1510));
+  EXPECT_FALSE(b.rule(play_id)->active());
+}
+
+TEST_F(dissent, renews_early_enough_whatever_the_greatest_delay) {
+  for (auto const [delay, early] : {std::pair{0, 200}, {10, 200}, {300, 300}, {500, 500}, {1900, 1000}}) {
+    rota::robot_options o;
+    o.max_delay = milliseconds(delay);
+    auto a = leader(o);
+    a.receive(says_so(4, 2, defend, stance::dissents), start + milliseconds(100));
+    EXPECT_FALSE(think(a, sees(5), start + seconds(2) - milliseconds(early + 1)).reign_renewed) << delay;
+    EXPECT_TRUE(think(a, sees(5), start + seconds(2) - milliseconds(early)).reign_renewed) << delay;
+  }
+}
+
+TEST_F(dissent, who_abstains_and_is_needed_keeps_the_reign_alive) {
+  using plan = rota::plan<soccer, view>;
+  rota::additive_utility<soccer, view> const worth = [](soccer::agent a, soccer::task, view const& v) {
+    return std::optional<double>(v.attack[static_cast<std::size_t>(a)]);
+  };
+  auto const pair = *plan::make({.plan = soccer::plan::normal,
+                                 .tasks = {{soccer::task::attack, {2, 2}, soccer::state::get_ball}},
+                                 .utility = worth});
+  auto const both = *rota::plan_type<soccer, view>::make(play_id, {pair});
+  robot a(agent(5), squad(9), first_life);
+  a.enter(both, start);
+  a.receive(says(4, 1, attack), start);
+  a.receive(claim_by(4, 4), start);
+  auto const judge = [&](int ms) { return a.deliberate(both, members, sees(5), start + milliseconds(ms), space); };
+  (void)judge(0);
+  a.receive(says_so(4, 2, attack, stance::abstains), start + milliseconds(100));
+  EXPECT_TRUE(judge(1500).reign_renewed);
+  // It has no task: without the reign it would have none, either.
+  auto b = leader();
+  b.receive(says_so(4, 2, std::nullopt, stance::abstains), start + milliseconds(100));
+  EXPECT_FALSE(think(b, sees(5), start + milliseconds(1500)).reign_renewed);
+}
+
+TEST_F(dissent, from_another_leader_or_from_long_ago_counts_for_nothing) {
+  auto a = in_play(5);
+  a.receive(says_so(3, 1, defend, stance::dissents), start);  // from robot 4
+  auto c = claim_by(4, 4);
+  c.remaining = milliseconds(300);
+  a.receive(c, start);
+  (void)think(a, sees(5), start);
+  EXPECT_FALSE(think(a, sees(5), start + milliseconds(290)).reign_renewed);
+
+  rota::robot_options o;
+  o.silence = seconds(20);
+  auto b = leader(o);
+  b.receive(says_so(4, 2, defend, stance::dissents), start + milliseconds(100));
+  EXPECT_TRUE(think(b, sees(5), start + milliseconds(1600)).reign_renewed);
+  EXPECT_FALSE(think(b, sees(5), start + milliseconds(3100)).reign_renewed) << "it may be dead";
+}
+
+/// Two robots whose confidences grow all the time; 2 enters shortly before the reign of 1 ends, and messages are slow. Each answer
+/// reaches the other when all that it knows of is over: stamps alone do not end it.
+TEST_F(dissent, answers_to_answers_end_whatever_confidences_do) {
+  auto const everybody = squad(3);
+  robot a(agent(1), everybody, first_life), b(agent(2), everybody, first_life);
+  a.enter(play, start);
+  a.set_confidence(1);
+  a.receive(claim_by(3, 3), start);
+  struct letter {
+    int due, to;
+    message what;
+  };
+  std::vector<letter> air;
+  int answers = 0, last = 0;
+  for (int ms = 0; ms < 10'000; ++ms) {
+    auto const now = start + milliseconds(ms);
+    if (ms == 1800) b.enter(play, now);
+    for (auto* x : {&a, &b}) x->set_confidence(1 + static_cast<std::uint32_t>(ms));
+    for (std::size_t i = 0; i < air.size();) {
+      if (air[i].due > ms) {
+        ++i;
+        continue;
+      }
+      auto& x = air[i].to == 1 ? a : b;
+      if (x.receive(air[i].what, now).claim == rota::claim_outcome::challenged) ++answers, last = ms;
+      air.erase(air.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    for (auto* x : {&a, &b}) {
+      if (ms % 5 == 0 && x->executes(play_id)) (void)think(*x, sees(1), now);
+      while (auto m = x->next_message(now)) air.push_back({ms + 200, x == &a ? 2 : 1, *m});
+    }
+  }
+  EXPECT_GE(answers, 1);
+  EXPECT_LE(answers, 2) << "three robots: a claim, and an answer of each of the others";
+  EXPECT_LE(last, 2400);
+}
+
 TEST_F(dissent, a_renewal_is_obeyed_and_the_claim_before_it_is_over) {
   auto a = in_play(1);
   auto const first = claim_by(9, 1);
@@ -198,27 +314,47 @@ TEST_F(dissent, a_renewal_opens_again_who_leads_and_nothing_else_does) {
   EXPECT_EQ(claims(a, start + milliseconds(3100))->stamp.confidence, 7u) << "who leads is open again";
 }
 
-TEST_F(dissent, who_sees_nothing_valid_abstains_also_under_authority) {
+TEST_F(dissent, who_sees_nothing_valid_for_a_message_period_abstains_also_under_authority) {
   auto a = in_play(1);
   view none;
   none.attack.fill(-100);
   (void)think(a, none, start);
+  (void)think(a, none, start + milliseconds(99));
+  EXPECT_EQ(stands(a, start + milliseconds(100)), stance::none) << "it may have missed a look";
+  EXPECT_EQ(think(a, none, start + milliseconds(100)).reason, decision_reason::no_valid_allocation);
   EXPECT_EQ(stands(a, start + milliseconds(100)), stance::abstains);
-  a.receive(claim_by(9, 1), start + milliseconds(10));
-  auto const d = think(a, none, start + milliseconds(30));
+  a.receive(claim_by(9, 1), start + milliseconds(110));
+  auto const d = think(a, none, start + milliseconds(130));
   EXPECT_EQ(d.reason, decision_reason::obeyed);
   EXPECT_FALSE(d.dissents);
   EXPECT_EQ(d.own, does(1, attack)) << "it obeys";
+  EXPECT_EQ(stands(a, start + milliseconds(200)), stance::abstains);
+  (void)think(a, sees(1), start + milliseconds(160));
+  EXPECT_NE(stands(a, start + milliseconds(200)), stance::abstains);
+  (void)think(a, none, start + milliseconds(190));
+  EXPECT_NE(stands(a, start + milliseconds(200)), stance::abstains) << "the time counts anew";
+}
+
+TEST_F(dissent, nobody_who_obeys_says_where_it_stands_if_reigns_have_a_fixed_length) {
+  rota::robot_options o;
+  o.renewals = 0;
+  auto a = in_play(1, o);
+  view none;
+  none.attack.fill(-100);
+  (void)think(a, none, start);
+  (void)think(a, none, start + milliseconds(100));
   EXPECT_EQ(stands(a, start + milliseconds(100)), stance::abstains);
-  (void)think(a, sees(1), start + milliseconds(60));
-  EXPECT_NE(stands(a, start + milliseconds(100)), stance::abstains);
+  a.receive(claim_by(9, 1), start + milliseconds(110));
+  (void)think(a, sees(1), start + milliseconds(130));
+  EXPECT_EQ(stands(a, start + milliseconds(200)), stance::none) << "it sees again, and has not judged";
 }
 
 TEST_F(dissent, who_enters_anew_has_not_judged_yet_and_does_not_abstain) {
   auto a = in_play(1);
   view none;
   none.attack.fill(-100);
-  (void)think(a, none, start);
+  for (int ms : {0, 100}) (void)think(a, none, start + milliseconds(ms));
+  EXPECT_EQ(stands(a, start + milliseconds(100)), stance::abstains);
   a.leave(play_id);
   a.enter(play, start + milliseconds(50));
   EXPECT_EQ(stands(a, start + milliseconds(100)), stance::none);
@@ -243,6 +379,26 @@ TEST_F(dissent, who_abstains_is_given_no_task_as_long_as_others_can_take_them_al
 }
 
 /// If only those who abstain could make an allocation valid, they are counted in: or else one blind robot would blind all.
+/// Hysteresis and change cost hold among those who do not abstain, too.
+TEST_F(dissent, the_others_keep_what_they_do_where_somebody_abstains) {
+  rota::robot_options o;
+  o.hysteresis = rota::hysteresis{0.5, {}};
+  auto a = in_play(1, o);
+  a.receive(says(2, 1, attack), start);
+  a.receive(says_so(3, 1, std::nullopt, stance::abstains), start);
+  view v;
+  v.attack[1] = 1, v.attack[2] = 0.75;
+  auto d = think(a, v, start);
+  EXPECT_EQ(a.believes(play_id)->atoms(), (atoms{does(2, attack)}));
+  EXPECT_EQ(d.left_out.size(), 1u);
+  EXPECT_EQ(d.left_out[0], agent(3));
+  EXPECT_NE(describe(d).find("left out, since they abstain: 3"), std::string::npos) << describe(d);
+  a.receive(says(3, 2, defend), start);
+  d = think(a, v, start);
+  EXPECT_TRUE(d.left_out.empty());
+  EXPECT_EQ(describe(d).find("abstain"), std::string::npos);
+}
+
 TEST_F(dissent, who_abstains_makes_nobody_else_abstain) {
   using plan = rota::plan<soccer, view>;
   rota::additive_utility<soccer, view> const worth = [](soccer::agent a, soccer::task, view const& v) {

@@ -63,6 +63,7 @@ claim a_claim() {
   c.remaining = milliseconds(1970);
   c.version = 3;
   c.renewals = 1;
+  c.answers = 2;
   return c;
 }
 
@@ -70,8 +71,8 @@ claim a_claim() {
 TEST(wire, says_the_same_on_every_machine) {
   EXPECT_EQ(hex(encoded(a_plan_message())), "a4 07 80 92 b3 d8 06 e8 07 02 01 00 01 02 00 00 02 b8 b1 a4 ec");
   EXPECT_EQ(hex(encoded(a_claim())),
-            "a5 00 09 80 92 b3 d8 06 02 03 01 00 09 d0 9e 78 06 00 01 00 11 02 01 22 03 01 33 04 01 44 05 01 55 "
-            "06 01 66 61 5f a9 13");
+            "a5 00 09 80 92 b3 d8 06 02 03 01 02 00 09 d0 9e 78 06 00 01 00 11 02 01 22 03 01 33 04 01 44 05 01 55 "
+            "06 01 66 06 f2 39 a9");
 }
 
 wire_fault reason(bytes const& b) { return rota::decode<soccer>(b).error(); }

@@ -127,6 +127,7 @@ void write(json_writer& w, claim<V> const& c) {
   w.number("number", c.number);
   w.number("version", c.version);
   w.number("renewals", c.renewals);
+  w.number("answers", c.answers);
   w.number("confidence", c.stamp.confidence);
   w.id("stamp", c.stamp.id);
   w.number("remaining_us", c.remaining.ns / 1000);
@@ -266,6 +267,7 @@ void read(json_fields& f, nlohmann::json const& x, claim<V>& c) {
                  {"number"},
                  {"version"},
                  {"renewals"},
+                 {"answers"},
                  {"confidence"},
                  {"stamp"},
                  {"remaining_us"},
@@ -278,6 +280,7 @@ void read(json_fields& f, nlohmann::json const& x, claim<V>& c) {
   c.number = f.number(x, here, "number");
   c.version = f.number(x, here, "version");
   c.renewals = static_cast<std::uint32_t>(f.number(x, here, "renewals", 0xffffffffU));
+  c.answers = static_cast<std::uint32_t>(f.number(x, here, "answers", 0xffffffffU));
   c.stamp.confidence = static_cast<std::uint32_t>(f.number(x, here, "confidence", 0xffffffffU));
   c.stamp.id = f.id<typename V::agent>(x, here, "stamp");
   c.remaining = microseconds(static_cast<std::int64_t>(f.number(x, here, "remaining_us", longest / 1000)));

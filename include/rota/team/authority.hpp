@@ -74,9 +74,10 @@ public:
   /// Begins to lead with claim number `number`, which is first due at `due`. With `never` it is due once `revise` has
   /// named the allocation. @pre `!leading()`; numbers grow
   void lead(typename V::plan_type type, allocation_atoms<V> atoms, claim_stamp<V> mine, rota::incarnation incarnation,
-            std::uint64_t number, instant now, instant due, instant expiry, std::uint32_t renewals = 0) {
+            std::uint64_t number, instant now, instant due, instant expiry, std::uint32_t renewals = 0,
+            std::uint32_t answers = 0) {
     ROTA_ASSERT(!leading());
-    claim_ = {type, std::move(atoms), mine, mine.id, incarnation, number, 1, {}, {}, renewals};
+    claim_ = {type, std::move(atoms), mine, mine.id, incarnation, number, 1, {}, {}, renewals, answers};
     phase_ = phase::leading;
     began_ = now;
     expiry_ = expiry;
@@ -84,13 +85,13 @@ public:
     said_ = false;
   }
 
-  /// Whether c has the identity of a claim that is remembered, and says something else: another stamp, another count
-  /// of renewals, or another allocation in the same version. None of them ever changes, so such a message is a forgery or a fault.
+  /// Whether c has the identity of a claim that is remembered, and says something else: another stamp, other counts
+  /// of renewals and answers, or another allocation in the same version. None of them ever changes, so such a message is a forgery or a fault.
   [[nodiscard]] bool contradicts(claim<V> const& c) const {
     if (known const* const k = known_.find(c.leader); k && k->last == identity_of(c) && k->stamp != c.stamp)
       return true;
     if (!active() || !(claim_.leader == c.leader) || identity_of(claim_) != identity_of(c)) return false;
-    return claim_.stamp != c.stamp || claim_.renewals != c.renewals ||
+    return claim_.stamp != c.stamp || claim_.renewals != c.renewals || claim_.answers != c.answers ||
            (claim_.version == c.version && claim_.atoms != c.atoms);
   }
   /// Whether the robot obeys a claim that this leader had not made when it had made `made` of them.
@@ -147,7 +148,9 @@ public:
       if (now - k->expiry > max_delay) known_.erase(leader);
       return false;
     }
-    if (k->over || k->last == identity{incarnation, leads}) return false;
+    // A leader that leads with a later claim has renewed this one: that holds until the later one is heard.
+    bool const leads_on = k->last.incarnation == incarnation && leads >= k->last.number;
+    if (k->over || leads_on) return false;
     k->over = true;
     if (!obeying() || !(claim_.leader == leader)) return false;
     phase_ = phase::none;
@@ -220,7 +223,7 @@ public:
   void digest_into(Digest& d) const {
     d(phase_);
     if (active()) {
-      d(claim_.leader, claim_.incarnation.value, claim_.number, claim_.version, claim_.renewals,
+      d(claim_.leader, claim_.incarnation.value, claim_.number, claim_.version, claim_.renewals, claim_.answers,
         claim_.stamp.confidence, expiry_);
       for (auto const& x : claim_.atoms) d(x.agent, x.plan, x.task);
       if (obeying()) d.all(claim_.ages);

@@ -91,6 +91,21 @@ public:
   [[nodiscard]] bool anybody(rota::stance s) const noexcept {
     return std::any_of(records_.begin(), records_.end(), [&](record const& r) { return r.stance == s; });
   }
+  /// Whether without a leader somebody would not do what is believed of it: it was heard since then, and it dissents, or it
+  /// abstains and has a task. O(n log n).
+  [[nodiscard]] bool disputed(instant since) const {
+    for (std::size_t i = 0; i < who_.size(); ++i) {
+      record const& r = records_[i];
+      if (r.heard < since) continue;
+      if (r.stance == rota::stance::dissents || (r.stance == rota::stance::abstains && part(who_[i]))) return true;
+    }
+    return false;
+  }
+  /// Forgets who dissents: from another leader.
+  void forget_dissent() noexcept {
+    for (record& r : records_)
+      if (r.stance == rota::stance::dissents) r.stance = rota::stance::none;
+  }
   /// The participants but those who have said that they abstain, ascending. O(n).
   [[nodiscard]] small_vector<agent_id, 8> willing() const {
     small_vector<agent_id, 8> all;

@@ -86,6 +86,7 @@ struct [[nodiscard]] decision {
   bool reign_began = false;                     ///< the robot claims authority from now on
   bool reign_renewed = false;                   ///< … and claims it anew, since others would do otherwise
   bool dissents = false;                        ///< the robot obeys, and would do otherwise
+  small_vector<typename V::agent, 2> left_out;  ///< were given nothing, since they abstain
   bool reign_ended = false;   ///< a reign has ended since the last deliberation, and no greater took its place
   duration clock_set_back{};  ///< by so much the robot's clock was set back since its last decision
   /// The plan types that the robot executes, ascending; filled only if the reason is `not_executing`.

@@ -103,6 +103,7 @@ struct claim {
   duration remaining{};
   small_vector<duration, 8> ages{};  ///< of each atom's agent, the time since its last sign of life; 0 for the leader
   std::uint32_t renewals = 0;        ///< an answer has as many as the claim that it answers
+  std::uint32_t answers = 0;  ///< so many claims were answered, one after the other, since the detection or the renewal
 
   friend bool operator==(claim const&, claim const&) = default;
 };

@@ -230,6 +230,7 @@ template <vocabulary V, class Names = default_names>
           "; the robot believes what the others say";
   if (obeys && d.leader) out += ": agent " + name(*d.leader);
   out += d.own ? "; own task: " + to_string(*d.own, name) : std::string("; no task of its own");
+  if (!d.left_out.empty() && !obeys) out += "; left out, since they abstain: " + detail::listing(d.left_out, name);
   if (d.dissents) out += "; by itself it would take " + to_string(d.search->atoms, name);
   if (!d.deleted.empty()) out += "; silent agents were deleted: " + to_string(d.deleted, name);
   if (d.reign_ended) out += "; a reign has ended";

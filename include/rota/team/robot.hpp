@@ -80,6 +80,7 @@ public:
     if (!t) return false;
     t->executing = false;
     t->lapsed = false;
+    t->blind = false;
     t->stance = stance::none;
     t->believed = {};
     t->monitor.clear();
@@ -183,8 +184,9 @@ public:
     bool const was_active = t.rule.active();
     if (t.rule.renews(c)) t.thaw();
     auto const stamp =
-        t.stamp_at(options_.confidence, self_, now);  // before it is frozen, also if it does not answer now
-    auto const mine = t.blind() ? std::nullopt : std::optional{stamp};
+        t.stamp_at(options_.confidence, self_, now);             // before it is frozen, also if it does not answer now
+    bool const answers = !t.blind && c.answers < peers_.size();  // with the others' answers before, one of each at most
+    auto const mine = answers ? std::optional{stamp} : std::nullopt;
     auto const heard = t.rule.hear(c, mine, now, options_.max_delay);
     r.claim = heard.outcome;
     if (heard.outcome == claim_outcome::expired) {
@@ -194,9 +196,10 @@ public:
     t.freeze(now + c.remaining);
     if (heard.outcome == claim_outcome::challenged) {
       (void)t.admit_all(c, now, options_.silence, options_.max_delay + heard.late);
+      t.believed.forget_dissent();
       // No longer than the claim that it answers: all authority that follows from one detection ends together. What others
       // have said since the last deliberation may mix plans, and nobody has judged it: then the next one says the answer.
-      lead(t, c.renewals, now, t.judged ? now : never, now + (std::min)(options_.reign, c.remaining));
+      lead(t, c.renewals, c.answers + 1, now, t.judged ? now : never, now + (std::min)(options_.reign, c.remaining));
     } else if (t.rule.obeying() && heard.outcome != claim_outcome::outranked) {
       if (!was_active) t.monitor.clear();
       r.relay = heard.fresh;
@@ -235,22 +238,24 @@ public:
     if (obeys) d.reason = decision_reason::obeyed;
     if (!obeys || options_.renewals > 0) {
       auto const here = t->rule.active() ? t->believed.atoms() : t->believed.told(self_);
-      auto& next = d.search.emplace(searched(*t, pt, members, beliefs, here, space, budget, idle));
+      auto& next = d.search.emplace(searched(*t, pt, members, beliefs, here, space, budget, idle, d.left_out));
       ROTA_ASSERT(t->knows(next.atoms));  // or else another plan type was entered under this id
-      auto const stands = !next.plan                       ? stance::abstains
-                          : obeys && !(next.atoms == here) ? stance::dissents
-                                                           : stance::none;
+      if (!std::exchange(t->blind, !next.plan)) t->abstains_from = now + options_.message_period;
+      // Who misses a single look, and sees again, has nothing to say.
+      auto const stands = t->blind && now >= t->abstains_from        ? stance::abstains
+                          : obeys && !t->blind && next.atoms != here ? stance::dissents
+                                                                     : stance::none;
       if (stands != t->stance && stands != stance::none) timetable_.note_news();
       t->stance = stands;
       d.dissents = t->stance == stance::dissents;
       if (!obeys) {
-        auto const adopted = t->blind() ? others(here) : next.atoms;
+        auto const adopted = t->blind ? others(here) : next.atoms;
         d.event = difference(t->believed.atoms(), adopted);
         t->adopt(adopted, d.event);
-        d.reason = t->blind()        ? decision_reason::no_valid_allocation
+        d.reason = t->blind          ? decision_reason::no_valid_allocation
                    : d.event.empty() ? decision_reason::kept
                                      : decision_reason::reallocated;
-        t->judged = !t->blind();
+        t->judged = !t->blind;
         conclude(*t, d, now);
       }
     }
@@ -344,35 +349,40 @@ private:
   template <class Beliefs>
   reallocation<V> searched(track const& t, plan_type<V, Beliefs> const& pt, team<V> const& members,
                            Beliefs const& beliefs, allocation_atoms<V> const& here, workspace& space,
-                           search_budget const& budget, idling idle) const {
-    problem<V, Beliefs> p{pt, members, beliefs, t.believed.participants(), idle};
+                           search_budget const& budget, idling idle, small_vector<agent_id, 2>& left_out) const {
+    auto const everybody = t.believed.participants();
+    problem<V, Beliefs> p{pt, members, beliefs, everybody, idle};
     p.change_cost = options_.change_cost;
     if (t.believed.anybody(stance::abstains)) {
       auto const willing = t.believed.willing();
       auto rest = here;
-      for (in<V> const& x : here)
-        if (!std::binary_search(willing.begin(), willing.end(), x.agent)) rest.erase(x);
+      for (agent_id const b : everybody)
+        if (auto const x = part_of<V>(here, b);
+            !std::binary_search(willing.begin(), willing.end(), b) && (left_out.push_back(b), !x.empty()))
+          rest.erase(x.front());
       p.participants = {willing.begin(), willing.size()};
       p.current = rest.atoms();
       auto found = reallocate(p, options_.hysteresis, space, budget);
       if (found.plan) return found;
-      p.participants = t.believed.participants();
+      left_out.clear();
+      p.participants = everybody;
     }
     p.current = here.atoms();
     return reallocate(p, options_.hysteresis, space, budget);
   }
 
-  void lead(track& t, std::uint32_t renewals, instant now, instant due, instant expiry) {
+  void lead(track& t, std::uint32_t renewals, std::uint32_t answers, instant now, instant due, instant expiry) {
     t.monitor.clear();
     auto const stamp = t.stamp_at(options_.confidence, self_, now);
     t.freeze(expiry);
-    t.rule.lead(t.names.type(), t.believed.atoms(), stamp, incarnation_, ++claims_, now, due, expiry, renewals);
+    t.rule.lead(t.names.type(), t.believed.atoms(), stamp, incarnation_, ++claims_, now, due, expiry, renewals,
+                answers);
     timetable_.note_news();
   }
   /// What follows from a search: a leader says it; everybody else looks for a loop, and claims if there is one. Who sees
   /// nothing valid does neither.
   void conclude(track& t, decision<V>& d, instant now) {
-    if (t.blind()) {
+    if (t.blind) {
       if (t.rule.leading()) {
         t.rule.release();
         t.normalise();
@@ -392,7 +402,8 @@ private:
     if (!v.detected || !options_.resolution) return;
     // Beside a greater leader that is still heard, though its claim has ended by this clock, there shall be no second one.
     if (now < t.rule.heard_late(t.stamp_at(options_.confidence, self_, now)) + 2 * options_.claim_period) return;
-    lead(t, 0, now, now, now + options_.reign);
+    t.believed.forget_dissent();
+    lead(t, 0, 0, now, now, now + options_.reign);
     d.reign_began = true;
   }
   /// A leader whose claim ends soon claims anew if it was told that others would do otherwise. It says so early enough for
@@ -400,11 +411,12 @@ private:
   bool renew(track& t, instant now) {
     duration const left = t.rule.expiry() - now;
     std::uint32_t const before = t.rule.current().renewals;
-    if (left > (std::min)(options_.max_delay, duration{options_.reign.ns / 2})) return false;
-    if (before >= options_.renewals || !t.believed.anybody(stance::dissents)) return false;
+    duration const early = (std::max)(options_.max_delay, 2 * options_.claim_period);
+    if (left > (std::min)(early, duration{options_.reign.ns / 2})) return false;
+    if (before >= options_.renewals || !t.believed.disputed(now - options_.reign)) return false;
     t.rule.release();
     t.thaw();
-    lead(t, before + 1, now, now, now + options_.reign);
+    lead(t, before + 1, 0, now, now, now + options_.reign);
     return true;
   }
 
@@ -417,7 +429,9 @@ private:
       if (auto const own = t.believed.part(self_))
         p.place = placement<V>{own->plan, own->task, *t.believed.state(self_)};
       if (t.rule.leading()) p.leads = t.rule.current().number;
-      if (t.blind() || t.rule.obeying()) p.stance = t.stance;
+      // Nobody knows by itself what it would do whose reigns have a fixed length; and nobody dissents where nobody rules.
+      bool const asked = t.rule.obeying() ? options_.renewals > 0 : t.stance == stance::abstains;
+      if (asked) p.stance = t.stance;
       if (options_.fingerprints && encodable_atom<in<V>>) p.fingerprint = t.fingerprint();
       m.types.push_back(p);
     }

@@ -167,6 +167,7 @@ template <vocabulary V>
   w.number(c.number);
   w.number(c.version);
   w.number(c.renewals);
+  w.number(c.answers);
   w.number(c.stamp.confidence);
   detail::write(w, c.stamp.id);
   w.number(static_cast<std::uint64_t>(c.remaining.ns / 1000));
@@ -230,6 +231,7 @@ void read(byte_reader& r, claim<V>& c, small_vector<in<V>, 8>& atoms) {
   c.number = r.number();
   c.version = r.number();
   c.renewals = static_cast<std::uint32_t>(r.number((std::numeric_limits<std::uint32_t>::max)()));
+  c.answers = static_cast<std::uint32_t>(r.number((std::numeric_limits<std::uint32_t>::max)()));
   c.stamp.confidence = static_cast<std::uint32_t>(r.number((std::numeric_limits<std::uint32_t>::max)()));
   c.stamp.id = read<typename V::agent>(r);
   c.remaining = microseconds(static_cast<std::int64_t>(r.number(longest / 1000)));

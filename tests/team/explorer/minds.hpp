@@ -96,6 +96,7 @@ struct outlook {
   rota::claim_stamp<soccer> stamp{};
   rota::duration left{};  // until that claim ends
   std::uint32_t renewals = 0;
+  std::uint32_t answers = 0;
   std::uint32_t known = 0;  // the robots that take part, a bit each
   std::uint32_t held = 0;   // the allocation, four bits for each robot
 };
@@ -192,6 +193,7 @@ public:
   /// How many it remembers.
   [[nodiscard]] std::size_t size() const { return robots_.size(); }
   [[nodiscard]] std::size_t types() const { return count_; }
+  [[nodiscard]] std::size_t everybody() const { return everybody_.size(); }
   [[nodiscard]] std::uint64_t met() const { return met_; }
   /// How often two robots that are not equal, but whose digests are, were made to do the same.
   [[nodiscard]] std::uint64_t compared() const { return compared_; }
@@ -269,6 +271,7 @@ private:
       o.leader = c.leader;
       o.stamp = c.stamp;
       o.renewals = c.renewals;
+      o.answers = c.answers;
       o.left = rule->expiry() - now;
       if (o.obeys == (c.leader == r.self())) wrong_ = "obeys itself, or leads with the claim of another";
     }

@@ -83,6 +83,7 @@ struct body {
   rota::instant died{};
   std::array<number, most_robots> heard{};
   std::array<stamp, most_types> stamps{};
+  std::array<std::uint32_t, most_types> disputes{};  // who said last that without a leader the conflict would be back
 };
 /// What is known of a claim.
 struct note {

@@ -151,6 +151,7 @@ public:
       for (std::size_t j = 0; j < size(); ++j)
         sum = mixed(mixed(sum, b.heard[j].incarnation << 32 | b.heard[j].sequence), since(b.heard[j].when));
       for (auto const& s : b.stamps) sum = mixed(mixed(sum, s.confidence), since(s.frozen_until));
+      for (auto const d : b.disputes) sum = mixed(sum, d);
     }
     for (auto const& n : notes_) {
       sum = mixed(mixed(sum, n.name), mixed(since(n.end), n.answered));
@@ -275,6 +276,9 @@ private:
     bool const new_life = !(last < said);
     if (new_life && now_ - last.when <= impatient().forget) return "an old message is taken in";
     last = said;
+    for (std::size_t type = 0; type < minds_->types(); ++type) bodies_[i].disputes[type] &= ~(1u << sender);
+    for (auto const& p : m.types)
+      if (p.stance != rota::stance::none) bodies_[i].disputes[p.type == type_ids[0] ? 0 : 1] |= 1u << sender;
     // If its leader has not made the last claim in this life, and that is past or over, all are forgotten: its claims may be made
     // again under their names.
     std::array<bool, 2> anew{new_life, new_life};
@@ -332,9 +336,11 @@ private:
       if (!is.leads || (was.leads && was.ruling == is.ruling)) continue;
       if (was.leads && was.left > rota::duration{}) {
         if (is.renewals != was.renewals + 1) return "a leader begins anew without renewing";
+        if (bodies_[i].disputes[type] == 0) return "a reign is renewed that nobody disputes";
         bodies_[i].stamps[type].frozen_until = long_past;
       }
       if (is.renewals > impatient().renewals) return "a reign is renewed too often";
+      if (is.answers >= minds_->everybody()) return "more answers than robots";
       freeze(i, type, now_ + is.left);
       if (is.stamp.confidence != bodies_[i].stamps[type].confidence) return "a stamp changes while claims live";
       auto& end = note_of(is.ruling).end;
@@ -373,7 +379,7 @@ private:
     lasting[0] = leaders > 1 ? lasting[0] + 1 : 0;
     lasting[1] = orphan || deaf || other ? lasting[1] + 1 : 0;
     if (lasting[0] > 2) return "two settled leaders";
-    if (lasting[1] > 4) return orphan ? "an orphan, or a ghost obeyed" : deaf ? "deaf to a leader" : "obeys otherwise";
+    if (lasting[1] > 3) return orphan ? "an orphan, or a ghost obeyed" : deaf ? "deaf to a leader" : "obeys otherwise";
     return nullptr;
   }
   /// After all was heard: those who are alive know one another, and nobody else; and if all see the same they agree.

@@ -30,6 +30,7 @@ public:
       if (!(b == self)) peers_.at(b);
   }
 
+  [[nodiscard]] std::size_t size() const noexcept { return peers_.size(); }
   /// O(log roster).
   [[nodiscard]] peer const* find(agent_id b) const { return peers_.find(b); }
   [[nodiscard]] peer* find(agent_id b) { return peers_.find(b); }

@@ -23,12 +23,11 @@ struct track {
   claim_stamp<V> stamp{};           // of this robot's claims; not computed anew before `frozen_until`
   instant frozen_until = long_ago;  // the end of the last claim that it knows of
   bool executing = false;
-  bool judged = false;  // the last deliberation chose what is believed, and nothing has changed it since
-  bool lapsed = false;  // a reign has ended since the last deliberation
+  bool judged = false;            // the last deliberation chose what is believed, and nothing has changed it since
+  bool lapsed = false;            // a reign has ended since the last deliberation
+  bool blind = false;             // it found no valid allocation: it neither counts cycles, claims nor answers
+  instant abstains_from = never;  // … and says so, if by then it has not found one
   rota::stance stance = rota::stance::none;  // what the last deliberation came to
-
-  /// Whether the last deliberation found no valid allocation: then it neither counts cycles, claims nor answers.
-  [[nodiscard]] bool blind() const noexcept { return stance == rota::stance::abstains; }
 
   /// Ends a reign whose time is over.
   void expire(instant now) {
@@ -128,11 +127,14 @@ struct track {
     monitor.shift(d);
     rule.shift(d);
     frozen_until = moved(frozen_until, d);
+    if (blind) abstains_from = moved(abstains_from, d);
   }
 
   template <class Digest>
   void digest_into(Digest& d) const {
-    d(names.type(), believed, monitor, rule, stamp.confidence, executing, judged, lapsed, stance).until(frozen_until);
+    d(names.type(), believed, monitor, rule, stamp.confidence, executing, judged, lapsed, blind, stance)
+        .until(frozen_until);
+    if (blind) d.until(abstains_from);
   }
   friend bool operator==(track const&, track const&) = default;
 };
