@@ -288,6 +288,9 @@ TEST_F(dissent, a_renewal_is_obeyed_and_the_claim_before_it_is_over) {
   second.renewals = 2;
   EXPECT_EQ(a.receive(second, start + milliseconds(1520)).reason, rota::refusal::foreign_stamp)
       << "how often it was renewed never changes";
+  second.renewals = 1;
+  second.answers = 1;
+  EXPECT_EQ(a.receive(second, start + milliseconds(1530)).reason, rota::refusal::foreign_stamp);
 }
 
 /// Robot 1 is smaller than 9; its confidence grows while it obeys. Its stamp stays until the reign is renewed.

@@ -196,7 +196,7 @@ private:
     std::uint64_t leads = 0;
     for (auto const& t : m.types)
       if (t.type == c.type) leads = t.leads;
-    bool const over = c.incarnation < m.number.incarnation || (c.number <= m.claims && c.number != leads);
+    bool const over = c.incarnation < m.number.incarnation || (c.number <= m.claims && leads < c.number);
     if (over) fail(invariant::no_orphans, r, "still obeys " + shown(name(c)));
   }
 
@@ -214,6 +214,8 @@ private:
       if (reign const* const x = find(*cause)) {
         mine.root = x->root;
         mine.hops = x->hops + 1;
+        if (genuine(r) && mine.hops >= static_cast<std::int64_t>(team_.size()))
+          fail(invariant::reigns_bounded, r, "answers an answer of an answer, more than there are robots");
         if (genuine(r) && mine.end > mine.root + mine.hops * (promises_.delay + promises_.slack))
           fail(invariant::answers_inherit, r,
                "its answer ends " + shown(mine.end - mine.root) + " after the claim that began it all");

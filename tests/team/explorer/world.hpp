@@ -87,8 +87,7 @@ public:
     if (o == order::first)
       for (auto const& f : old)
         if (auto const* wrong = deliver(f)) return wrong;
-    // A moment with two leaders is unavoidable, and so are two rounds with one obeyed that has ended, until it speaks, and two
-    // more until the leader does; more is not.
+    // A moment with two leaders, or with one obeyed that has just ended, is unavoidable; two or three rounds are not.
     rota::small_vector<int, 4> lasting{0, 0, 0, 0};
     for (int i = 0; i < setting_->rounds; ++i) {
       auto code = mixed(digest(), static_cast<std::uint64_t>(i));
@@ -299,7 +298,7 @@ private:
       for (auto const& p : m.types)
         if (p.type == name.type) leads = p.leads;
       bool const former = name.incarnation < said.incarnation;
-      bool const over = name.incarnation == said.incarnation && name.number <= m.claims && name.number != leads;
+      bool const over = name.incarnation == said.incarnation && name.number <= m.claims && leads < name.number;
       if ((former || over) && n.heard[i] != not_yet) n.heard[i] = long_past;
     }
     return nullptr;
