@@ -188,7 +188,8 @@ TEST_F(dissent, a_plan_message_that_comes_before_the_renewal_frees_nobody) {
 }
 
 TEST_F(dissent, renews_early_enough_whatever_the_greatest_delay) {
-  for (auto const [delay, early] : {std::pair{0, 200}, {10, 200}, {300, 300}, {500, 500}, {1900, 1000}}) {
+  for (auto const& [delay, early] :
+       std::vector<std::pair<int, int>>{{0, 200}, {10, 200}, {300, 300}, {500, 500}, {1900, 1000}}) {
     rota::robot_options o;
     o.max_delay = milliseconds(delay);
     auto a = leader(o);
