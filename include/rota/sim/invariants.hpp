@@ -91,8 +91,8 @@ private:
   /// What one robot has heard of another in its present life.
   struct peer {
     std::optional<message_number> last;
-    bool dissents = false;
-    instant heard{};  // on its own clock
+    bool objects = false;  // it said last that it dissents, or abstains
+    instant heard{};       // on its own clock
     std::optional<identity> obeyed;
     instant end{};  // of that claim, on its own clock
     std::optional<identity> answered;
@@ -188,8 +188,7 @@ private:
       p.obeyed.reset();
     p.last = m.number;
     p.heard = now;
-    p.dissents =
-        std::any_of(m.types.begin(), m.types.end(), [](auto const& t) { return t.stance == stance::dissents; });
+    p.objects = std::any_of(m.types.begin(), m.types.end(), [](auto const& t) { return t.stance != stance::none; });
     if (!genuine(r) || !team_.plays(r.robot) || !rule(r.robot).obeying()) return;
     auto const& c = rule(r.robot).current();
     if (index(c.leader) != r.other || c.incarnation > m.number.incarnation) return;
@@ -227,7 +226,7 @@ private:
   void renew_reign(log_record const& r) {
     auto const& a = rule(r.robot);
     auto const& peers = views_[r.robot].peers;
-    if (genuine(r) && std::none_of(peers.begin(), peers.end(), [](peer const& p) { return p.dissents; }))
+    if (genuine(r) && std::none_of(peers.begin(), peers.end(), [](peer const& p) { return p.objects; }))
       fail(invariant::answers_inherit, r, "renews its reign, and nobody has told it to do otherwise");
     if (a.current().renewals > promises_.renewals)
       fail(invariant::reigns_bounded, r,
