@@ -79,8 +79,9 @@ struct simulate_options {
 
 struct reproduce_options {
   std::uint64_t seed = 1;
-  std::string plan;          ///< empty: the shipped one
-  std::string stamp = "id";  ///< one that `sim::parse_stamp_policy` knows
+  std::string plan;                 ///< empty: the shipped one
+  std::string stamp = "consensus";  ///< one that `sim::parse_stamp_policy` knows
+  bool as_published = false;        ///< as the paper has it, and nothing else
   bool json = false;
 };
 [[nodiscard]] outcome run_reproduce(reproduce_options const& o);

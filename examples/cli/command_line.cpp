@@ -164,11 +164,12 @@ void add_simulate(CLI::App& program, command& chosen) {
 void add_reproduce(CLI::App& program, command& chosen) {
   auto const o = std::make_shared<reproduce_options>();
   CLI::App& sub = add(program, chosen, o, run_reproduce, "reproduce",
-                      "The paper's evaluation: every scenario, without and with resolution");
+                      "The paper's evaluation: every scenario without resolution, as published, and as it is now");
   sub.add_option("--seed", o->seed, "equal seeds give equal output")->check(check_seed)->capture_default_str();
   sub.add_option("--plan", o->plan, "a plan or plan type of ALICA; by default the shipped soccer plan")
       ->check(check_not_empty);
-  add_stamp(sub, o->stamp, "who leads: ").capture_default_str();
+  add_stamp(sub, o->stamp, "who leads as it is now: ").capture_default_str();
+  sub.add_flag("--as-published", o->as_published, "only as the paper has it: the literal monitor, fixed reigns, ids");
   sub.add_flag("--json", o->json, "print JSON");
 }
 

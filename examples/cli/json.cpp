@@ -147,10 +147,10 @@ ordered_json json_of(sim::length_statistics const& s) {
   return out;
 }
 
-ordered_json json_of(sim::scenario what, bool resolution, sim::figures const& f) {
+ordered_json json_of(sim::scenario what, std::string_view resolution, sim::figures const& f) {
   ordered_json out;
   out["name"] = to_string(what);
-  out["resolution"] = resolution ? "on" : "off";
+  out["resolution"] = resolution;
   out["conflict_share"] = f.conflict_share();
   out["episodes"] = f.episodes.count();
   out["episode_ms"] = json_of(f.episodes);
@@ -302,7 +302,7 @@ named_allocation read_allocation(std::string const& file) {
 
 std::string as_json(sim::scenario what, bool resolution, std::uint64_t seed, std::string const& stamp,
                     sim::figures const& f) {
-  auto out = json_of(what, resolution, f);
+  auto out = json_of(what, resolution ? "on" : "off", f);
   out["seed"] = seed;
   out["stamp"] = stamp;
   return out.dump(2) + '\n';
@@ -319,8 +319,9 @@ std::string as_json(evaluation const& e, std::uint64_t seed, std::string const& 
   timing["samples"] = e.timing.samples;
   auto scenarios = ordered_json::array();
   for (auto const& r : e.rows) {
-    scenarios.push_back(json_of(r.what, false, r.off));
-    scenarios.push_back(json_of(r.what, true, r.on));
+    scenarios.push_back(json_of(r.what, "off", r.off));
+    scenarios.push_back(json_of(r.what, "as published", r.published));
+    if (r.on) scenarios.push_back(json_of(r.what, "on", *r.on));
   }
   ordered_json out;
   out["timing"] = std::move(timing);

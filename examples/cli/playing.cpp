@@ -68,9 +68,9 @@ evaluation::row const& evaluation::of(sim::scenario s) const {
   return *std::find_if(rows.begin(), rows.end(), [s](row const& r) { return r.what == s; });
 }
 
-evaluation evaluate(sim::playbook const& book, std::uint64_t seed, sim::stamp_function const& stamp,
+evaluation evaluate(sim::playbook const& book, std::uint64_t seed, std::optional<sim::stamp_function> const& stamp,
                     std::function<void(std::size_t steps, std::string const& what)> const& next) {
-  constexpr auto steps = 2 + 2 * sim::all_scenarios.size();
+  std::size_t const steps = 2 + (stamp ? 3 : 2) * sim::all_scenarios.size();
   evaluation e;
   sim::timing_options timing;
   timing.seed = seed;
@@ -80,17 +80,24 @@ evaluation evaluate(sim::playbook const& book, std::uint64_t seed, sim::stamp_fu
   next(steps, "timing of detection, messages every 200 ms");
   e.timing_at_200 = sim::measure_timing(timing);
   for (auto const s : sim::all_scenarios) {
-    auto const run = [&](bool resolution) {
-      next(steps, std::string(to_string(s)) + ", resolution " + (resolution ? "on" : "off"));
-      sim::play_options options;
-      options.what = s;
-      options.team.seed = seed;
-      options.team.robot.resolution = resolution;
-      options.team.stamp = stamp;
-      return play_scenario(book, options);
-    };
-    auto off = run(false);
-    e.rows.push_back({s, std::move(off), run(true)});
+    sim::play_options options;
+    options.what = s;
+    options.team.seed = seed;
+    auto const coming = [&](char const* how) { next(steps, std::string(to_string(s)) + ", resolution " + how); };
+    evaluation::row r;
+    r.what = s;
+    coming("off");
+    options.team.robot.resolution = false;
+    r.off = play_scenario(book, options);
+    options.team.robot.resolution = true;
+    coming("as published");
+    r.published = sim::play_as_published(book, options);
+    if (stamp) {
+      coming("on");
+      options.team.stamp = *stamp;
+      r.on = play_scenario(book, options);
+    }
+    e.rows.push_back(std::move(r));
   }
   return e;
 }

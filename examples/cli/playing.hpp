@@ -35,12 +35,13 @@ void require_playable(sim::playbook const& book, std::size_t robots, std::string
 /// What `sim::to_string` calls them.
 [[nodiscard]] std::vector<std::pair<sim::oracle, std::string>> oracles();
 
-/// What the evaluation came to: the check figures, and each scenario without and with resolution.
+/// What the evaluation came to: the check figures, and each scenario without resolution, as the paper has it, and as it is now.
 struct evaluation {
   struct row {
     sim::scenario what{};
     sim::figures off;
-    sim::figures on;
+    sim::figures published;
+    std::optional<sim::figures> on;  ///< none if only what is published was asked for
   };
   sim::timing_figures timing, timing_at_200;
   std::vector<row> rows;
@@ -48,8 +49,9 @@ struct evaluation {
   [[nodiscard]] row const& of(sim::scenario s) const;
 };
 
-/// Plays all scenarios, with these stamps. Says before each step how many there are, and what comes next.
-[[nodiscard]] evaluation evaluate(sim::playbook const& book, std::uint64_t seed, sim::stamp_function const& stamp,
+/// Plays all scenarios; with these stamps, unless only what is published is asked for. Says before each step how many there are, and what comes next.
+[[nodiscard]] evaluation evaluate(sim::playbook const& book, std::uint64_t seed,
+                                  std::optional<sim::stamp_function> const& stamp,
                                   std::function<void(std::size_t steps, std::string const& what)> const& next);
 
 /// The names of the plans, in one line.

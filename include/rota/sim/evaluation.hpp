@@ -2,6 +2,7 @@
 
 #include <rota/sim/metrics.hpp>
 #include <rota/sim/scripted_world.hpp>
+#include <rota/team/monitors/literal.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -46,6 +47,14 @@ template <class Monitor = conflict_monitor<names>, observer Observer>
 template <class Monitor = conflict_monitor<names>>
 [[nodiscard]] figures play(playbook const& book, play_options const& options) {
   return play<Monitor>(book, options, [](log_record const&) {});
+}
+
+/// As the paper has it: cycles are counted whoever is their sender (`literal_monitor`), a reign has a fixed length, and the greatest
+/// id leads.
+[[nodiscard]] inline figures play_as_published(playbook const& book, play_options options) {
+  options.team.robot.renewals = 0;
+  options.team.stamp = {};
+  return play<literal_monitor<names>>(book, options);
 }
 
 /// How long two robots that begin to fight need to detect it: means over random phases, in ms.
