@@ -187,6 +187,21 @@ TEST_P(scenarios, every_figure_follows_from_the_log_and_resolution_shortens_epis
   EXPECT_GT(on.terms(), 10U) << "reigns and renewals: the cause lasts";
 }
 
+/// As the paper has it, whatever the options say: reigns of fixed length, ids, and the literal monitor.
+TEST(evaluation, as_published_is_the_paper_s_behaviour) {
+  auto const book = soccer();
+  auto options = brief(scenario::ball_fight, true);
+  options.team.stamp = [](knowledge const& k) { return k.self == 0 ? 9U : 0U; };
+  auto const published = play_as_published(book, options);
+  EXPECT_GT(published.reigns, 10U) << "the conflict is back after each reign";
+  EXPECT_EQ(published.renewals, 0U);
+  EXPECT_EQ(published.led.back(), published.reigns) << "the greatest id leads";
+  auto plain = brief(scenario::ball_fight, true);
+  plain.team.robot.renewals = 0;
+  EXPECT_EQ(printed(play<literal_monitor<names>>(book, plain)), printed(published));
+  EXPECT_NE(printed(play(book, plain)), printed(published)) << "another monitor";
+}
+
 TEST(evaluation, equal_seeds_give_equal_figures_and_logs_others_do_not) {
   auto const book = soccer();
   for (auto const s : {scenario::ball_fight, scenario::hour}) {
