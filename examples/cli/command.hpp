@@ -137,8 +137,8 @@ struct campaign_options {
 
 struct sweep_options {
   std::string table;  ///< empty: none; what is not named below is as the table says
-  std::vector<std::string> systems, troubles, reigns, stamps;
-  std::vector<double> losses;
+  std::vector<std::string> systems, troubles, reigns, stamps, news;
+  std::vector<double> losses, reign_lengths, hystereses, change_costs;
   std::vector<std::uint64_t> robots;
   std::vector<std::int64_t> periods;  ///< ms
   std::vector<std::uint32_t> cycles;

@@ -283,7 +283,15 @@ void add_sweep(CLI::App& program, command& chosen) {
       ->check(within(20, 1000, "a whole number from 20 to 1000"));
   list("--cycles", o->cycles, "n, of rota")->check(within(1, 1000, "a whole number from 1 to 1000"));
   list("--reign", o->reigns, "how long rota's leaders reign")->check(CLI::IsMember({"fixed", "renewed"}));
+  list("--reign-length", o->reign_lengths, "seconds that a claim of rota holds")
+      ->check(within(0.5, 60.0, "a number of seconds from 0.5 to 60"));
   list("--stamp", o->stamps, "who of rota's claimants leads")->check(CLI::IsMember(words(sim::all_stamp_policies)));
+  list("--news", o->news, "whether rota says what is new at once, or in its next slot")
+      ->check(CLI::IsMember({"on", "off"}));
+  list("--hysteresis", o->hystereses, "metres that a new allocation must save; by default the plan's own")
+      ->check(within(0.0, 1000.0, "a number of metres from 0 to 1000"));
+  list("--change-cost", o->change_costs, "metres that rota's search counts for each robot that gets another task")
+      ->check(within(0.0, 1000.0, "a number of metres from 0 to 1000"));
   sub.add_option("--minutes", o->minutes, "simulated time of each game")
       ->check(within(0.01, 1440.0, "a number of minutes from 0.01 to 1440"))
       ->capture_default_str();

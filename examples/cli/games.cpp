@@ -25,8 +25,17 @@ std::array<std::optional<double>, quantities> play_cell(sim::playbook const& boo
   robot.fingerprints = cell.period_ms > 100;
   if (cell.cycles > 0) robot.cycles = cell.cycles;
   if (cell.reign == "fixed") robot.renewals = 0;
+  if (cell.reign_s > 0) {
+    robot.reign = {static_cast<std::int64_t>(cell.reign_s * 1e9 + 0.5)};
+    robot.max_reign = std::max(robot.max_reign, robot.reign);
+  }
+  robot.change_cost = cell.change_cost;
+  o.rules.news = cell.news != "off";
   if (auto const stamp = sim::parse_stamp_policy(cell.stamp)) o.rules.stamp = sim::function_of(*stamp);
-  auto const f = play_game(book, *parse_way(cell.system), o);
+  auto sketches = book.plans;
+  for (auto& s : sketches) s.hysteresis = cell.hysteresis;
+  auto const changed = sim::make_playbook(book.type.id(), std::move(sketches));
+  auto const f = play_game(*changed, *parse_way(cell.system), o);
 
   std::array<std::optional<double>, quantities> out;
   auto const put = [&](quantity m, double x, bool any = true) {

@@ -419,7 +419,11 @@ void each_field(Cell& c, Field const& field) {
   field("system", c.system);
   field("cycles", c.cycles);
   field("reign", c.reign);
+  field("reign_s", c.reign_s);
   field("stamp", c.stamp);
+  field("news", c.news);
+  field("hysteresis", c.hysteresis);
+  field("change_cost", c.change_cost);
   field("minutes", c.minutes);
 }
 
@@ -492,7 +496,7 @@ std::string as_line(sweep_row const& row) {
 std::optional<sweep_row> read_row(std::string const& line) {
   if (!line.starts_with(row_start())) return std::nullopt;
   auto const tree = nlohmann::json::parse(line, nullptr, false);
-  if (!tree.is_object() || tree.size() != 13 + kept_quantities) return std::nullopt;
+  if (!tree.is_object() || tree.size() != 17 + kept_quantities) return std::nullopt;
   sweep_row row;
   bool sound = true;
   auto const read = [&](char const* key, auto& into) {

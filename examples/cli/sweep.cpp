@@ -27,11 +27,12 @@ using strings = std::vector<std::string>;
 /// The tables that docs/evaluation.md quotes: what they vary.
 struct named_table {
   char const* name;
-  strings systems, troubles, reigns, stamps;
-  std::vector<double> losses;
-  std::vector<std::uint64_t> robots;
-  std::vector<std::int64_t> periods;
-  std::vector<std::uint32_t> cycles;
+  strings systems, troubles;
+  strings reigns{}, stamps{}, news{};
+  std::vector<double> losses{}, reign_lengths{}, hystereses{}, change_costs{};
+  std::vector<std::uint64_t> robots{};
+  std::vector<std::int64_t> periods{};
+  std::vector<std::uint32_t> cycles{};
 };
 strings const every_system{"rota", "silent", "alica", "central", "majority", "steam", "consa", "cbba"};
 strings const calm_or_deluded{"none", "delusion"};
@@ -40,14 +41,32 @@ std::vector<named_table> const& named_tables() {
   std::string const best{to_string(sim::best_stamp_policy)};
   strings stamps;
   for (auto const p : sim::all_stamp_policies) stamps.emplace_back(to_string(p));
+  strings const rota{"rota"}, three{"none", "delusion", "mixed"};
   static std::vector<named_table> const all{
-      {"beside", every_system, {"none", "delusion", "mixed", "breakdowns"}, {}, {}, {}, {}, {}, {}},
-      {"loss", every_system, calm_or_deluded, {}, {}, {0, 0.2, 0.6}, {}, {}, {}},
-      {"rate", every_system, calm_or_deluded, {}, {}, {}, {}, {100, 200, 500}, {}},
-      {"team", every_system, calm_or_deluded, {}, {}, {}, {3, 4, 5}, {}, {}},
-      {"cycles", {"rota"}, {"none", "delusion", "mixed"}, {}, {}, {}, {}, {}, {2, 3, 4, 5, 6}},
-      {"reign", {"rota"}, {"none", "delusion", "mixed"}, {"fixed", "renewed"}, {"id", best}, {0.02, 0.6}, {}, {}, {}},
-      {"stamp", {"rota"}, {"none", "delusion", "mixed"}, {}, stamps, {}, {}, {}, {}}};
+      {.name = "beside", .systems = every_system, .troubles = {"none", "delusion", "mixed", "breakdowns"}},
+      {.name = "loss", .systems = every_system, .troubles = calm_or_deluded, .losses = {0, 0.2, 0.6}},
+      {.name = "rate", .systems = every_system, .troubles = calm_or_deluded, .periods = {100, 200, 500}},
+      {.name = "team", .systems = every_system, .troubles = calm_or_deluded, .robots = {3, 4, 5}},
+      {.name = "cycles", .systems = rota, .troubles = three, .cycles = {2, 3, 4, 5, 6}},
+      {.name = "reign",
+       .systems = rota,
+       .troubles = three,
+       .reigns = {"fixed", "renewed"},
+       .stamps = {"id", best},
+       .losses = {0.02, 0.6}},
+      {.name = "length",
+       .systems = rota,
+       .troubles = calm_or_deluded,
+       .reigns = {"fixed", "renewed"},
+       .reign_lengths = {0.5, 2, 8}},
+      {.name = "stamp", .systems = rota, .troubles = three, .stamps = stamps},
+      {.name = "news", .systems = rota, .troubles = calm_or_deluded, .news = {"on", "off"}, .periods = {50, 100, 200}},
+      {.name = "hysteresis", .systems = rota, .troubles = calm_or_deluded, .hystereses = {0, 0.05, 0.1, 0.2, 0.5, 1}},
+      {.name = "change-cost",
+       .systems = rota,
+       .troubles = calm_or_deluded,
+       .hystereses = {0, 0.1},
+       .change_costs = {0, 0.1, 0.5}}};
   return all;
 }
 
@@ -61,40 +80,46 @@ std::vector<T> given_or(std::vector<T> const& given, std::vector<T> const& table
 }
 
 /// Every setting, in the order in which tables print them.
-std::vector<sweep_cell> cells_of(sweep_options const& o) {
+std::vector<sweep_cell> cells_of(sweep_options const& o, double hysteresis) {
   named_table none{};
   auto const* t = &none;
   for (auto const& x : named_tables())
     if (o.table == x.name) t = &x;
-  auto const reigns = given_or<std::string>(o.reigns, t->reigns, {"renewed"});
-  auto const stamps = given_or<std::string>(o.stamps, t->stamps, {std::string(to_string(sim::best_stamp_policy))});
-  auto const cycles = given_or<std::uint32_t>(o.cycles, t->cycles, {4});
-  std::vector<sweep_cell> out;
-  sweep_cell c;
-  c.minutes = o.minutes;
-  auto const add = [&] {
-    if (std::find(out.begin(), out.end(), c) == out.end()) out.push_back(c);
+  std::vector<sweep_cell> cells(1);
+  cells.front().minutes = o.minutes;
+  // Each setting so far once with each of these values; `rota` says that only rota's robots have it.
+  auto const cross = [&](auto sweep_cell::* member, auto const& values, bool rota = false) {
+    std::vector<sweep_cell> more;
+    constexpr std::size_t most = 100'000;
+    if (cells.size() > most / o.seeds / values.size())
+      throw input_error("the sweep has more than " + std::to_string(most) + " games: name fewer values or seeds");
+    for (auto const& c : cells)
+      for (auto const& x : values) {
+        auto& next = more.emplace_back(c);
+        if (!rota || c.system == "rota") next.*member = x;
+        if (rota && c.system != "rota") break;
+      }
+    cells = std::move(more);
   };
-  for (auto const& trouble : given_or<std::string>(o.troubles, t->troubles, {"none", "delusion"}))
-    for (auto const robots : given_or<std::uint64_t>(o.robots, t->robots, {5}))
-      for (auto const loss : given_or<double>(o.losses, t->losses, {0.02}))
-        for (auto const period : given_or<std::int64_t>(o.periods, t->periods, {100}))
-          for (auto const& system : given_or<std::string>(o.systems, t->systems, every_system))
-            for (auto const n : cycles)
-              for (auto const& reign : reigns)
-                for (auto const& stamp : stamps) {
-                  bool const ours = system == "rota";
-                  c.trouble = trouble;
-                  c.robots = robots;
-                  c.loss = loss;
-                  c.period_ms = period;
-                  c.system = system;
-                  c.cycles = ours ? n : 0;
-                  c.reign = ours ? reign : "-";
-                  c.stamp = ours ? stamp : "-";
-                  add();
-                }
-  return out;
+  robot_options const usual;
+  cross(&sweep_cell::trouble, given_or<std::string>(o.troubles, t->troubles, {"none", "delusion"}));
+  cross(&sweep_cell::robots, given_or<std::uint64_t>(o.robots, t->robots, {5}));
+  cross(&sweep_cell::loss, given_or<double>(o.losses, t->losses, {0.02}));
+  cross(&sweep_cell::period_ms, given_or<std::int64_t>(o.periods, t->periods, {100}));
+  cross(&sweep_cell::hysteresis, given_or<double>(o.hystereses, t->hystereses, {hysteresis}));
+  cross(&sweep_cell::reign, strings{"-"});
+  cross(&sweep_cell::stamp, strings{"-"});
+  cross(&sweep_cell::news, strings{"-"});
+  cross(&sweep_cell::system, given_or<std::string>(o.systems, t->systems, every_system));
+  cross(&sweep_cell::cycles, given_or<std::uint32_t>(o.cycles, t->cycles, {usual.cycles}), true);
+  cross(&sweep_cell::reign, given_or<std::string>(o.reigns, t->reigns, {"renewed"}), true);
+  cross(&sweep_cell::reign_s,
+        given_or<double>(o.reign_lengths, t->reign_lengths, {static_cast<double>(usual.reign.ns) / 1e9}), true);
+  cross(&sweep_cell::stamp,
+        given_or<std::string>(o.stamps, t->stamps, {std::string(to_string(sim::best_stamp_policy))}), true);
+  cross(&sweep_cell::news, given_or<std::string>(o.news, t->news, {"on"}), true);
+  cross(&sweep_cell::change_cost, given_or<double>(o.change_costs, t->change_costs, {usual.change_cost}), true);
+  return cells;
 }
 
 /// Calls `work(i)` for i below `count` on so many threads, and `done(i)` here, in order. An exception ends everything.
@@ -165,18 +190,27 @@ struct axis {
   std::string (*text)(sweep_cell const&);
   std::string (*words)(sweep_cell const&);
 };
-constexpr axis axes[] = {{"robots", [](sweep_cell const& c) { return std::to_string(c.robots); },
-                          [](sweep_cell const& c) { return counted(c.robots, "robot"); }},
-                         {"loss", [](sweep_cell const& c) { return percent(c.loss); },
-                          [](sweep_cell const& c) { return percent(c.loss) + " loss"; }},
-                         {"every", [](sweep_cell const& c) { return std::to_string(c.period_ms) + " ms"; },
-                          [](sweep_cell const& c) { return "messages every " + std::to_string(c.period_ms) + " ms"; }},
-                         {"n", [](sweep_cell const& c) { return c.cycles == 0 ? "-" : std::to_string(c.cycles); },
-                          [](sweep_cell const& c) { return c.cycles == 0 ? "" : "n = " + std::to_string(c.cycles); }},
-                         {"reign", [](sweep_cell const& c) { return c.reign; },
-                          [](sweep_cell const& c) { return c.reign == "-" ? "" : "reigns " + c.reign; }},
-                         {"stamp", [](sweep_cell const& c) { return c.stamp; },
-                          [](sweep_cell const& c) { return c.stamp == "-" ? "" : "stamp " + c.stamp; }}};
+constexpr axis axes[] = {
+    {"robots", [](sweep_cell const& c) { return std::to_string(c.robots); },
+     [](sweep_cell const& c) { return counted(c.robots, "robot"); }},
+    {"loss", [](sweep_cell const& c) { return percent(c.loss); },
+     [](sweep_cell const& c) { return percent(c.loss) + " loss"; }},
+    {"every", [](sweep_cell const& c) { return std::to_string(c.period_ms) + " ms"; },
+     [](sweep_cell const& c) { return "messages every " + std::to_string(c.period_ms) + " ms"; }},
+    {"n", [](sweep_cell const& c) { return c.cycles == 0 ? "-" : std::to_string(c.cycles); },
+     [](sweep_cell const& c) { return c.cycles == 0 ? "" : "n = " + std::to_string(c.cycles); }},
+    {"reign", [](sweep_cell const& c) { return c.reign; },
+     [](sweep_cell const& c) { return c.reign == "-" ? "" : "reigns " + c.reign; }},
+    {"for", [](sweep_cell const& c) { return c.reign == "-" ? "-" : number(c.reign_s) + " s"; },
+     [](sweep_cell const& c) { return c.reign == "-" ? "" : "for " + number(c.reign_s) + " s"; }},
+    {"stamp", [](sweep_cell const& c) { return c.stamp; },
+     [](sweep_cell const& c) { return c.stamp == "-" ? "" : "stamp " + c.stamp; }},
+    {"news", [](sweep_cell const& c) { return c.news; },
+     [](sweep_cell const& c) { return c.news == "-" ? "" : "news " + c.news; }},
+    {"hysteresis", [](sweep_cell const& c) { return number(c.hysteresis) + " m"; },
+     [](sweep_cell const& c) { return "hysteresis " + number(c.hysteresis) + " m"; }},
+    {"change cost", [](sweep_cell const& c) { return c.news == "-" ? "-" : number(c.change_cost) + " m"; },
+     [](sweep_cell const& c) { return c.news == "-" ? "" : "change cost " + number(c.change_cost) + " m"; }}};
 
 /// Whether lines to which this applies differ in it.
 bool varies(sweep_table const& t, axis const& a) {
@@ -297,12 +331,9 @@ std::vector<std::string> sweep_table_names() {
 }
 
 outcome run_sweep(sweep_options const& o) {
-  auto const cells = cells_of(o);
-  constexpr std::size_t most = 100'000;
-  if (cells.size() > most / o.seeds)
-    throw input_error("the sweep has more than " + std::to_string(most) + " games: name fewer values or seeds");
   auto const file = default_plan();
   auto const book = read_playbook(file);
+  auto const cells = cells_of(o, book.plans.front().hysteresis);
   for (auto const& c : cells) require_playable(book, c.robots, file);
 
   std::vector<sweep_row> rows;

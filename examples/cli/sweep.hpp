@@ -21,7 +21,11 @@ struct sweep_cell {
   std::string system;
   std::uint32_t cycles = 0;
   std::string reign;
+  double reign_s = 0;
   std::string stamp;
+  std::string news;
+  double hysteresis = 0;  ///< of the plan, in its own unit
+  double change_cost = 0;
   double minutes = 0;
 
   friend bool operator==(sweep_cell const&, sweep_cell const&) = default;

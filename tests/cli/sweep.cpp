@@ -64,6 +64,47 @@ TEST_F(rota_sweep, plays_stamp_policies) {
   EXPECT_GT(out["lines"][1]["bytes_per_second"]["mean"], out["lines"][0]["bytes_per_second"]["mean"]);
 }
 
+/// The lines of a longer one.
+json lines_of_sweep(std::vector<std::string> more) {
+  std::vector<std::string> all{"sweep", "--json", "--seeds", "2", "--minutes", "0.5"};
+  all.insert(all.end(), more.begin(), more.end());
+  auto const r = rota_program(all);
+  EXPECT_EQ(r.status, 0) << r.complaint;
+  return json::parse(r.output, nullptr, false)["lines"];
+}
+double mean_of(json const& line, char const* what) { return line[what]["mean"]; }
+
+/// Fifteen metres are never saved in so short a game, so what was believed first stays; half a metre is not a plan's default.
+TEST_F(rota_sweep, plays_hysteresis_of_all_and_change_costs_of_rota) {
+  auto const usual = lines_of_sweep({"--trouble", "mixed", "--system", "rota,central"});
+  ASSERT_EQ(usual.size(), 2u);
+  EXPECT_EQ(usual[0]["hysteresis"], 0.1) << "that of the plan";
+  EXPECT_EQ(usual[0]["change_cost"], 0);
+  auto const stiff = lines_of_sweep(
+      {"--trouble", "mixed", "--system", "rota,central", "--hysteresis", "0.1,15", "--change-cost", "0,7.5"});
+  ASSERT_EQ(stiff.size(), 6u);
+  EXPECT_EQ(stiff[0]["wrong_attacker_share"], usual[0]["wrong_attacker_share"]);
+  for (std::size_t const i : {1u, 3u, 4u, 5u}) {
+    SCOPED_TRACE(stiff[i].dump());
+    EXPECT_GT(mean_of(stiff[i], "wrong_attacker_share"), 0.1) << "beside " << usual[0];
+  }
+  EXPECT_EQ(stiff[2]["system"], "central");
+  EXPECT_EQ(stiff[2]["change_cost"], 0) << "the others know none";
+  EXPECT_EQ(stiff[5]["hysteresis"], 15.0);
+}
+
+TEST_F(rota_sweep, plays_news_that_waits_and_reigns_of_any_length) {
+  auto const lines = lines_of_sweep({"--trouble", "mixed", "--system", "rota", "--news", "on,off"});
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_GT(mean_of(lines[0], "messages_per_second"), mean_of(lines[1], "messages_per_second"));
+  EXPECT_LT(mean_of(lines[0], "conflict_share"), mean_of(lines[1], "conflict_share"));
+  auto const reigns =
+      lines_of_sweep({"--system", "rota", "--trouble", "delusion", "--reign", "fixed", "--reign-length", "0.5,10"});
+  ASSERT_EQ(reigns.size(), 2u);
+  EXPECT_EQ(reigns[1]["reign_s"], 10.0);
+  EXPECT_GT(mean_of(reigns[0], "reigns_per_hour"), mean_of(reigns[1], "reigns_per_hour"));
+}
+
 TEST_F(rota_sweep, does_not_depend_on_the_number_of_threads) {
   sandbox box;
   auto const one = sweep({"--json", "--jobs", "1", "--rows", box.path("one")});
@@ -174,6 +215,10 @@ TEST_F(rota_sweep, misuse_is_one_line) {
   expect("--trouble", {"rain", ""});
   expect("--reign", {"eternal", "2"});
   expect("--stamp", {"alphabet"});
+  expect("--news", {"perhaps", "on,maybe", ""});
+  expect("--hysteresis", {"-0.1", "1001", "nan", "inf", "1e9", "0.1,x", ""});
+  expect("--change-cost", {"-1", "1000.5", "nan", "a lot", "0,-0.1"});
+  expect("--reign-length", {"0", "0.49", "61", "nan", "2s"});
   expect("--loss", {"1.1", "-0.1", "nan", "0.1,x", "0..1"});
   expect("--robots", {"1", "12", "2-5", "1e1", "5,05"});
   expect("--period", {"19", "1001", "100ms"});

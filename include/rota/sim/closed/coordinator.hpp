@@ -15,6 +15,7 @@ namespace rota::sim::closed {
 struct rules {
   duration message_period = milliseconds(100);  ///< nobody is silent for longer
   duration gap = milliseconds(10);              ///< nobody speaks sooner after the last message, whatever is new
+  bool news = true;                             ///< `rota` says what is new after the gap, else in its next slot
   duration silence = seconds(1);                ///< who was not heard for longer is believed to be off
   stamp_function stamp;                         ///< of `rota::robot`: how sure it is of its claims, if it says so
   robot_options robot;                          ///< of `rota::robot`: what the three above do not say

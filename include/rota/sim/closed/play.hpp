@@ -14,7 +14,7 @@ namespace rota::sim::closed {
 /// @pre 2 ≤ robots ≤ max_robots, as many as the plans of the book can use
 [[nodiscard]] inline game_figures play_game(playbook const& book, way how, game_options o) {
   switch (how) {
-  case way::rota: o.rules.robot.change_period = o.rules.gap; break;
+  case way::rota: o.rules.robot.change_period = o.rules.news ? o.rules.gap : duration{}; break;
   case way::silent: o.rules.robot.resolution = false; break;
   case way::central: return game<central_coordinator<eyes::own>>(book, o).play();
   case way::majority: return game<central_coordinator<eyes::pooled>>(book, o).play();
