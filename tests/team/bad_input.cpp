@@ -1,7 +1,7 @@
 // Each kind of bad message is refused by a name of its own, counted under it, and leaves the robot as it was.
 #include <gtest/gtest.h>
 
-#include "playground.hpp"
+#include "encoded.hpp"
 
 #include <rota/team/print.hpp>
 #include <rota/team/reception_counts.hpp>
@@ -23,14 +23,6 @@ using rota::wire_fault;
 
 namespace {
 
-using bytes = std::vector<std::byte>;
-
-bytes encoded(message const& m) {
-  std::array<std::byte, 8192> buffer{};
-  auto const size = rota::encode(m, buffer);
-  EXPECT_TRUE(size);
-  return {buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size ? *size : 0)};
-}
 /// With a checksum that fits, so that the rest is looked at.
 bytes sealed(bytes b) {
   auto const sum = rota::detail::crc32(b);

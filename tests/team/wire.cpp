@@ -1,7 +1,7 @@
 // Messages as bytes: the same on every machine, whole or not at all.
 #include <gtest/gtest.h>
 
-#include "playground.hpp"
+#include "encoded.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/messages.hpp"
 
@@ -24,14 +24,6 @@ using rota::wire_fault;
 
 namespace {
 
-using bytes = std::vector<std::byte>;
-
-bytes encoded(message const& m) {
-  std::array<std::byte, 8192> buffer{};
-  auto const size = rota::encode(m, buffer);
-  EXPECT_TRUE(size);
-  return {buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(size ? *size : 0)};
-}
 std::string hex(bytes const& b) {
   static constexpr char digit[] = "0123456789abcdef";
   std::string s;
