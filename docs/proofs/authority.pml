@@ -10,7 +10,8 @@
  *   Of plan messages, what the sender would say now may arrive anywhere at any time, or never; and one that was said earlier.
  * - Lives. (incarnation, number) is one growing number: a restart with a greater incarnation forgets all and keeps counting,
  *   and its first plan message says that everything before is over.
- * - Detection. Any robot that nobody rules may detect, `detections` times in all. What befalls the robots (leaving, a restart,
+ * - Detection. Any robot that nobody rules may detect, and any leader may renew its reign, `detections` times in all. A renewal begins
+ *   a cascade of its own; stamps stay the same, so who obeys a renewal never answers it. What befalls the robots (leaving, a restart,
  *   silence, blindness) happens `troubles` times in all; coming back is free.
  * Left out: allocations and versions, changing confidence, wrong clocks, forged messages, restarts with an old incarnation. */
 
@@ -165,7 +166,7 @@ inline hear_plan(told, sender) {
 #ifndef BROKEN_SILENT /* plan messages do not say which claims are over */
   if
   :: last[ON(told, sender)] != 0 && !over[ON(told, sender)] && last[ON(told, sender)] <= said_made &&
-     last[ON(told, sender)] != said_leads -> know_over(told, sender)
+     last[ON(told, sender)] > said_leads -> know_over(told, sender)
   :: else
   fi;
 #endif
@@ -243,7 +244,7 @@ proctype Chance() {
     if :: i = 0 :: i = 1 :: i = 2 fi;
     if :: j = 0 :: j = 1 :: j = 2 fi;
     if
-    :: i == j && executes[i] && phase[i] == none && detections < DETECTIONS -> /* robot::conclude: a conflict lasts */
+    :: i == j && executes[i] && phase[i] != obeying && detections < DETECTIONS -> /* robot::conclude: a conflict lasts; or renew */
       d_step {
         detections++;
         lead(i, detections)
