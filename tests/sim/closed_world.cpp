@@ -228,6 +228,35 @@ TEST(closed_game, a_lasting_delusion_is_a_lasting_quarrel_unless_somebody_leads)
   EXPECT_LT(play_game(book, way::rota, o).incoherent(), without.incoherent() / 2);
 }
 
+/// What distinguishes each way from its neighbour, in a third of a minute of delusion; and loss reaches the radio in all of them.
+TEST(closed_game, each_way_is_its_own_and_the_radio_loses_what_it_is_told_to) {
+  auto const book = soccer();
+  game_options o;
+  o.what = trouble::delusion;
+  o.world.sane = {};
+  o.length = seconds(20);
+  game_figures of[all_ways.size()], deaf[all_ways.size()];
+  for (std::size_t i = 0; i < all_ways.size(); ++i) {
+    o.network.loss = 0;
+    of[i] = play_game(book, all_ways[i], o);
+    o.network.loss = 0.8;
+    deaf[i] = play_game(book, all_ways[i], o);
+    EXPECT_GT(deaf[i].in_conflict, of[i].in_conflict) << to_string(all_ways[i]);
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_FALSE(of[i].bytes == of[k].bytes && of[i].in_conflict == of[k].in_conflict)
+          << to_string(all_ways[i]) << " decides as " << to_string(all_ways[k]);
+  }
+  auto const& f = [&](way w) -> game_figures const& { return of[static_cast<std::size_t>(w)]; };
+  EXPECT_EQ(f(way::silent).reigns, 0U);
+  EXPECT_GT(f(way::alica).reigns, 2 * f(way::rota).reigns) << "each lasts two seconds, and the quarrel is back";
+  EXPECT_GT(f(way::alica).incoherent(), 2 * f(way::rota).incoherent());
+  EXPECT_GT(f(way::steam).reaction_ms(), f(way::majority).reaction_ms()) << "nobody acts before all have confirmed";
+  EXPECT_GT(f(way::rota).messages, f(way::silent).messages) << "it says news at once";
+  o.network.loss = 0;
+  o.rules.news = false;
+  EXPECT_LT(play_game(book, way::rota, o).messages, f(way::rota).messages);
+}
+
 /// A stamp policy is asked at each deliberation, and hears what all mates have seen.
 TEST(closed_game, stamps_know_what_mates_have_said) {
   auto const book = soccer();
