@@ -312,7 +312,7 @@ std::string_view name_of(quantity m) {
       "not_one_attacker_share", "wrong_attacker_share", "conflict_share",  "resolution_median_ms",
       "resolution_p99_ms",      "reaction_mean_ms",     "reaction_p95_ms", "missed_share",
       "time_to_ball_ms",        "reigns_per_hour",      "right_share",     "messages_per_second",
-      "bytes_per_second"};
+      "bytes_per_second",       "not_right_share"};
   return names[static_cast<std::size_t>(m)];
 }
 

@@ -48,6 +48,11 @@ TEST_F(rota_sweep, prints_means_with_intervals_in_json_and_as_a_table) {
     EXPECT_NEAR(line["messages_per_second"]["mean"].get<double>(), (a + b) / 2, 1e-9);
     EXPECT_NEAR(line["messages_per_second"]["within"].get<double>(), 12.706 * std::abs(a - b) / 2, 1e-9);
     EXPECT_EQ(line["messages_per_second"]["games"], 2);
+    EXPECT_NEAR(line["not_right_share"]["mean"].get<double>(),
+                line["not_one_attacker_share"]["mean"].get<double>() +
+                    line["wrong_attacker_share"]["mean"].get<double>(),
+                1e-9);
+    EXPECT_FALSE(line.contains("")) << "a figure without a name";
   }
   auto const text = sweep({"--rows", rows, "--loss", "0,0.5"}).output;
   for (auto const* part : {"5 robots", "2 games of 0.01 minutes a line", "not one %", "50.0 %", "rota", "central", "±"})
