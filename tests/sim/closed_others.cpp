@@ -157,7 +157,8 @@ TEST(closed_commit, who_cannot_be_heard_holds_up_all_until_it_counts_as_off) {
 TEST(closed_argue, grounds_that_others_support_win_and_then_all_act_on_them) {
   auto const book = soccer();
   hall<argue_coordinator> h(book, 5, formation(5, beside(0)));
-  h.sees[4].ball = beside(4);  // deluded
+  // Deluded; and nearer to its ball than anybody to the true one, so that only the support of the others tells.
+  h.sees[4].ball = h.sees[4].robots[4] + point{metres(0.2), 0};
   h.run(seconds(1));
   h.expect_all_attack_with(1);
   auto const before = h.minds[0].agreed_on();
