@@ -231,6 +231,17 @@ TEST_F(dissent, from_another_leader_or_from_long_ago_counts_for_nothing) {
   (void)think(a, sees(5), start);
   EXPECT_FALSE(think(a, sees(5), start + milliseconds(290)).reign_renewed);
 
+  // It has found a loop itself, after somebody dissented from a leader before.
+  rota::robot_options quick;
+  quick.cycles = 1;
+  auto finder = in_play(5, quick);
+  finder.receive(says_so(3, 1, defend, stance::dissents), start);
+  finder.receive(says(2, 1, defend), start);
+  (void)think(finder, sees(5), start);
+  finder.receive(says(2, 2, attack), start + milliseconds(10));
+  EXPECT_TRUE(think(finder, sees(5), start + milliseconds(30)).reign_began);
+  EXPECT_FALSE(think(finder, sees(5), start + milliseconds(1600)).reign_renewed);
+
   rota::robot_options o;
   o.silence = seconds(20);
   auto b = leader(o);
