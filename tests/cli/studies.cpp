@@ -74,7 +74,7 @@ TEST_F(rota_monitors, prints_one_row_for_each_monitor_and_n) {
 }
 
 TEST_F(rota_stamps, sets_what_robots_can_know_beside_what_they_cannot) {
-  auto const r = rota_program({"stamps", "--seeds", "2", "--minutes", "0.1", "--json"});
+  auto const r = rota_program({"stamps", "--seeds", "2", "--minutes", "0.02", "--json"});
   ASSERT_EQ(r.status, 0) << r.complaint;
   auto const cells = json::parse(r.output, nullptr, false)["stamps"];
   ASSERT_EQ(cells.size(), 5u * (6 + 3));

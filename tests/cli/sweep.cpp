@@ -71,7 +71,7 @@ TEST_F(rota_sweep, plays_stamp_policies) {
 
 /// The lines of a longer one.
 json lines_of_sweep(std::vector<std::string> more) {
-  std::vector<std::string> all{"sweep", "--json", "--seeds", "2", "--minutes", "0.5"};
+  std::vector<std::string> all{"sweep", "--json", "--seeds", "2", "--minutes", "0.2"};
   all.insert(all.end(), more.begin(), more.end());
   auto const r = rota_program(all);
   EXPECT_EQ(r.status, 0) << r.complaint;
