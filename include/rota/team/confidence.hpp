@@ -26,12 +26,12 @@ confidence_of(double const& x, double const& least, double const& most,
 }
 
 /// The greatest second argument of `first_then`.
-inline constexpr std::uint32_t greatest_second = (1U << 24) - 1;
+inline constexpr std::uint32_t greatest_second = (std::uint32_t{1} << 24) - 1;
 
 /// One confidence of two arguments: the first decides, the second only where the first are equal. The first counts up to 255,
 /// the second up to `greatest_second`; what is greater counts as that.
 [[nodiscard]] constexpr std::uint32_t first_then(std::uint32_t first, std::uint32_t second) noexcept {
-  return (std::min)(first, 255U) << 24 | (std::min)(second, greatest_second);
+  return (std::min)(first, std::uint32_t{255}) << 24 | (std::min)(second, greatest_second);
 }
 
 }  // namespace rota
