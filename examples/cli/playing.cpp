@@ -60,6 +60,7 @@ sim::figures play_scenario(sim::playbook const& book, sim::play_options const& o
 
 std::vector<std::pair<sim::oracle, std::string>> oracles() {
   std::vector<std::pair<sim::oracle, std::string>> all;
+  all.reserve(sim::all_oracles.size());
   for (auto const o : sim::all_oracles) all.emplace_back(o, to_string(o));
   return all;
 }

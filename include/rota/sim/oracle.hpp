@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -67,13 +68,13 @@ namespace detail {
 
 /// Plays a scenario once with robots that know so much, or, without an oracle, with the stamps of the options.
 [[nodiscard]] inline figures play_knowing(playbook const& book, play_options options, std::optional<oracle> what) {
-  world_state const* truth = nullptr;
+  auto const truth = std::make_shared<world_state const*>(nullptr);  // of the game that is being played
   auto const eyes = options.team.sensor;
   if (what)
-    options.team.stamp = [&truth, what = *what, eyes](knowledge const& k) {
-      return confidence_knowing(what, k, *truth, eyes);
+    options.team.stamp = [truth, what = *what, eyes](knowledge const& k) {
+      return confidence_knowing(what, k, **truth, eyes);
     };
-  return play(book, options, [](log_record const&) {}, [&](auto const& team) { truth = &team.truth(); });
+  return play(book, options, [](log_record const&) {}, [&](auto const& team) { *truth = &team.truth(); });
 }
 
 }  // namespace rota::sim
