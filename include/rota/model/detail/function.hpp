@@ -17,9 +17,11 @@ inline constexpr bool fits<F, R(Parameters...)> =
 /// Whether a callable that may be empty is: a null pointer, or an empty std::function.
 template <class F>
 [[nodiscard]] bool is_empty(F const& f) {
-  if constexpr (requires {
-                  { f == nullptr } -> std::convertible_to<bool>;
-                }) {
+  if constexpr (std::is_function_v<F>) {
+    return false;
+  } else if constexpr (requires {
+                         { f == nullptr } -> std::convertible_to<bool>;
+                       }) {
     return f == nullptr;
   } else {
     return false;
